@@ -55,6 +55,7 @@ std::optional<AntennaTrack::Moment> AntennaTrack::at(Time stamp, Time available)
 
 std::optional<ppp::CarriedMotion> AntennaTrack::motion_to(Time stamp, Time available) {
   const std::optional<Moment> from = last_, to = last_ = at(stamp, available);
+  std::erase_if(moments_, [&](const Moment& m) { return m.stamp < stamp - longest_step; });
   if (!from || !to || to->stamp - from->stamp > longest_interval || to->stamp <= from->stamp)
     return std::nullopt;
   ppp::CarriedMotion motion;

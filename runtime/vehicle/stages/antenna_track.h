@@ -40,14 +40,16 @@ class AntennaTrack {
     moments_.reserve(capacity);
   }
 
-  // States come in the order of their stamps. The memory is that of the last 2.5 s.
+  // States come in the order of their stamps. Those before the newest epoch are forgotten, and more
+  // than `capacity` of them, of 2.5 s.
   void add(const FusedState& state);
 
   // Returns the motion since the stamp of the call before to `stamp`, by the states that are
   // available by `available`; nothing if one of both ends is not known.
   std::optional<ppp::CarriedMotion> motion_to(Time stamp, Time available);
 
-  static constexpr std::size_t largest_archive = 256 * 256;
+  static constexpr std::size_t capacity = 256;
+  static constexpr std::size_t largest_archive = (capacity + 2) * sizeof(AntennaMoment);
 
   // Those that are available at the cut.
   template <class Archive>
@@ -61,7 +63,6 @@ class AntennaTrack {
 
  private:
   using Moment = AntennaMoment;
-  static constexpr std::size_t capacity = 256;
 
   std::optional<Moment> at(Time stamp, Time available) const;
 
