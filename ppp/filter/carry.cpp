@@ -20,9 +20,8 @@ void keep(FilterState& state, int index, double sigma, double share) {
   }
 }
 
-// Adds a vector of the motion to the three entries at `index`, by (25) of METHOD.md.
-void add(FilterState& state, int index, const Vector3d& of_motion, const Vector3d& up,
-         const Matrix3d& noise) {
+// Adds a vector of the motion to the three entries at `index`, by (25) of METHOD.md without noise.
+void add(FilterState& state, int index, const Vector3d& of_motion, const Vector3d& up) {
   auto x = state.x();
   auto P = state.P();
   const double scale = 1.0 / (1.0 + x[S::carried_scale]);
@@ -32,7 +31,6 @@ void add(FilterState& state, int index, const Vector3d& of_motion, const Vector3
   P.middleRows<3>(index) += by_turn * P.row(S::carried_turn) + by_scale * P.row(S::carried_scale);
   P.middleCols<3>(index) +=
       P.col(S::carried_turn) * by_turn.transpose() + P.col(S::carried_scale) * by_scale.transpose();
-  P.block<3, 3>(index, index) += noise;
 }
 
 }  // namespace
@@ -45,18 +43,20 @@ void carry(FilterState& state, const CarriedMotion& motion, const PppParameters&
        std::exp(-elapsed / parameters.carried_scale_time));
   const Vector3d up =
       rotation_enu_ecef(geodetic_from_ecef(state.x().segment<3>(S::position))).row(2).transpose();
+  add(state, S::position, motion.displacement, up);
+  for (int i = 0; i < 3; ++i) state.set(S::velocity + i, 0.0, 0.0);
+  add(state, S::velocity, motion.velocity, up);
+
   const double walk = parameters.carried_walk, lever = motion.lever_sigma;
   const Matrix3d level = Matrix3d::Identity() - up * up.transpose();
-  add(state, S::position, motion.displacement, up,
-      walk * walk * elapsed * Matrix3d::Identity() + lever * lever * level);
-  for (int i = 0; i < 3; ++i) state.set(S::velocity + i, 0.0, 0.0);
-  add(state, S::velocity, motion.velocity, up, Matrix3d::Zero());
   // The speed's error of this interval is that of the way as well.
   const Vector3d along = parameters.carried_speed_share * motion.velocity;
   const Matrix3d error = along * along.transpose() + parameters.carried_velocity_sigma *
                                                          parameters.carried_velocity_sigma *
                                                          Matrix3d::Identity();
   auto P = state.P();
+  P.block<3, 3>(S::position, S::position) +=
+      walk * walk * elapsed * Matrix3d::Identity() + lever * lever * level;
   P.block<3, 3>(S::position, S::position) += elapsed * elapsed * error;
   P.block<3, 3>(S::position, S::velocity) += motion.interval * error;
   P.block<3, 3>(S::velocity, S::position) += motion.interval * error;

@@ -88,7 +88,7 @@ TEST(Carry, TheCovarianceFollowsTheNumericalDerivatives) {
     F.col(i) = (after(h) - after(-h)) / (2.0 * h);
   }
   const MatrixXd noise = carried.P() - F * before.P() * F.transpose();
-  // What is left is the white noise of the motion, of the position and the velocity alone.
+  // The rest is the motion's white noise, which only the position and the velocity have.
   EXPECT_LT(noise.middleCols<2>(S::carried_turn).cwiseAbs().maxCoeff(), 1e-6);
   const auto own = noise.topLeftCorner<6, 6>();
   EXPECT_TRUE(own.isApprox(own.transpose(), 1e-9));
