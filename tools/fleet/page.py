@@ -76,7 +76,9 @@ def grid_part(grid, runs, variants, metrics):
     """A table of drives by variants; the last row pools all drives that have every variant."""
     metric, inputs, unit = grid["metric"], grid.get("inputs", []), metrics[grid["metric"]]["unit"]
     drives = list(dict.fromkeys(r["recording"] for r in runs))
-    of = {(d, v): values_of([r for r in runs if (r["recording"], r["variant"]) == (d, v)], metric) for d in drives for v in variants}
+    of = {(d, v): [] for d in drives for v in variants}
+    for run in runs:
+        of[run["recording"], run["variant"]] += values_of([run], metric)
     mean = {at: numpy.mean(values) if values else None for at, values in of.items()}
     whole = [d for d in drives if all(mean[d, v] is not None for v in variants)]
     for v in variants:
