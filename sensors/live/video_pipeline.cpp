@@ -115,8 +115,8 @@ void VideoPipeline::take(VideoFrame& frame, void* opaque) {
   ++state_.frames;
   state_.connection.bytes += frame.image.pixels.size();
 
-  GstBuffer* buffer = gst_sample_get_buffer(sample);
   // The age of the image is the pipeline's clock now minus the time of the buffer.
+  GstBuffer* buffer = gst_sample_get_buffer(sample);
   GstElement* pipeline = elements_->pipeline.get();
   const GstOwned<GstClock> clock(gst_element_get_clock(pipeline));
   const GstClockTime pts = GST_BUFFER_PTS(buffer);
