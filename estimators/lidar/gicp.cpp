@@ -77,8 +77,9 @@ Gicp::Sums Gicp::sum_chunk(const PreparedScan& scan, const Eigen::Isometry3d& T,
     const Eigen::Vector3f d =
         R_body_map * (pair.target - T * point.position.cast<double>()).cast<float>();
     // (3) of METHOD.md
+    const Eigen::Vector3f normal = R_body_map * pair.normal;
     const Eigen::Matrix3f W =
-        whitening * plane_to_plane(point.normal, R_body_map * pair.normal, thickness);
+        whitening * plane_to_plane(point.has_normal() ? point.normal : normal, normal, thickness);
     const float square = d.dot(W * d);
     const float root = limit / (limit + square);  // (4) of METHOD.md
     const float weight = root * root;

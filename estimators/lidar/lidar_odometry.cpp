@@ -228,7 +228,7 @@ void LidarOdometry::learn(const ScanView& scan, OdometryStatus status) {
 // The members that are not archived are buffers of one call.
 template <class Archive, class Odometry>
 void LidarOdometry::describe(Archive& ar, Odometry& o) {
-  ar.section("LiDAR odometry", 2);
+  ar.section("LiDAR odometry", 3);
   archive_same(ar, "mounting of the LiDAR", o.T_body_velo_);
   archive_same_parameters(ar, o.parameters_);
   ar(o.started_, o.stamp_, o.aligned_stamp_, o.T_map_body_, o.twist_, o.map_is_sharp_,

@@ -74,6 +74,7 @@ int LocalMap::insert(const PreparedScan& scan, const Eigen::Isometry3d& T_map_bo
   int refused = 0;
   const Eigen::Matrix3f R = T_map_body.linear().cast<float>();
   for (const SurfacePoint& point : scan.points) {
+    if (!point.has_normal()) continue;
     const Vector3d p = T_map_body * point.position.cast<double>() / size_;
     const Vector3i cell(floor_to_int(p.x()), floor_to_int(p.y()), floor_to_int(p.z()));
     const Vector3f position = ((p - cell.cast<double>()) * size_).cast<float>();

@@ -15,6 +15,7 @@ struct LidarParameters {
   // --- Sampling and surfaces
   double sample_voxel = 1.0;  // m
   int min_surface_points = 6;
+  double min_beam_spread = 0.1;  // m
   int max_samples = 32'768;
 
   // --- Local map

@@ -113,13 +113,14 @@ void ScanPreparation::prepare(const ScanView& scan, Time stamp, const Twist& mot
     // rad/s.
     // (2) of METHOD.md
     const Vector3f turned = t * rate.cross(seen + (0.5f * t) * (rate.cross(seen) + velocity));
-    if (!moments_.add(seen + turned + t * velocity)) ++left_out;
+    const float beam = raw.z() / std::sqrt(square);
+    if (!moments_.add(seen + turned + t * velocity, beam)) ++left_out;
   }
   prepared->left_out =
       left_out +
       static_cast<int>(scan.count - (scan.count + stride - 1) / std::max<std::size_t>(stride, 1));
   moments_.sort();
-  surface_points(moments_, parameters_.min_surface_points, &prepared->points);
+  surface_points(moments_, T_body_velo_.translation(), parameters_, &prepared->points);
 }
 
 }  // namespace maploop::lidar

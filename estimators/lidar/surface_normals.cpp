@@ -1,6 +1,7 @@
 #include "estimators/lidar/surface_normals.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -15,6 +16,7 @@ struct Neighbourhood {
   float count = 0.0f;
   Vector3f sum = Vector3f::Zero();
   Matrix3f square = Matrix3f::Zero();  // lower triangle
+  float lowest_beam = 1.0f, highest_beam = -1.0f;
 
   void add(const Moments& m, const Vector3f& corner) {
     const auto n = static_cast<float>(m.count);
@@ -31,6 +33,8 @@ struct Neighbourhood {
     }
     sum += s + n * corner;
     count += n;
+    lowest_beam = std::min(lowest_beam, m.lowest_beam);
+    highest_beam = std::max(highest_beam, m.highest_beam);
   }
 
   Matrix3f covariance() const {
@@ -49,8 +53,10 @@ constexpr std::array<std::array<int, 3>, 7> self_and_faces{
 
 }  // namespace
 
-void surface_points(const VoxelMoments& moments, int min_points,
-                    std::vector<SurfacePoint>* points) {
+void surface_points(const VoxelMoments& moments, const Vector3f& scanner,
+                    const LidarParameters& parameters, std::vector<SurfacePoint>* points) {
+  const auto min_points = static_cast<float>(parameters.min_surface_points);
+  const auto min_spread = static_cast<float>(parameters.min_beam_spread);
   points->clear();
   Eigen::SelfAdjointEigenSolver<Matrix3f> solver;
   for (const Moments& middle : moments.voxels()) {
@@ -63,13 +69,15 @@ void surface_points(const VoxelMoments& moments, int min_points,
         around.add(moments.voxels()[static_cast<std::size_t>(i)], step.cast<float>());
       }
     }
-    if (around.count < static_cast<float>(min_points)) continue;
-    solver.computeDirect(around.covariance());
-    constexpr float line =
-        1e-3f;  // middle to largest eigenvalue; less is one beam's trace, not a surface
-    if (!(solver.eigenvalues()[1] > line * solver.eigenvalues()[2])) continue;
+    if (around.count < min_points) continue;
     const Vector3f position = (cell.cast<float>() + middle.mean()) * moments.size();
-    points->push_back({position, solver.eigenvectors().col(0)});
+    const float spread = (around.highest_beam - around.lowest_beam) * (position - scanner).norm();
+    solver.computeDirect(around.covariance());
+    constexpr float line = 1e-3f;  // middle to largest eigenvalue
+    const bool surface =
+        spread > min_spread && solver.eigenvalues()[1] > line * solver.eigenvalues()[2];
+    points->push_back(
+        {position, surface ? Vector3f(solver.eigenvectors().col(0)) : Vector3f::Zero()});
   }
 }
 

@@ -11,7 +11,9 @@ namespace maploop::lidar {
 // Describes a piece of surface. Its covariance in the sense of GICP is I - (1 - epsilon) n n^T.
 struct SurfacePoint {
   Eigen::Vector3f position;  // m
-  Eigen::Vector3f normal;    // unit, either sign
+  Eigen::Vector3f normal;    // unit, either sign; zero where the points do not determine it
+
+  bool has_normal() const { return !normal.isZero(); }
 };
 
 // Holds a scan as if all its points had been measured at one time.

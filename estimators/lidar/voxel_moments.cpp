@@ -14,7 +14,7 @@ void VoxelMoments::clear() {
   voxels_.clear();
 }
 
-bool VoxelMoments::add(const Eigen::Vector3f& position) {
+bool VoxelMoments::add(const Eigen::Vector3f& position, float beam) {
   const float scale = 1.0f / size_;
   const Eigen::Vector3f p = position * scale;
   const Eigen::Vector3i cell(floor_to_int(p.x()), floor_to_int(p.y()), floor_to_int(p.z()));
@@ -27,6 +27,8 @@ bool VoxelMoments::add(const Eigen::Vector3f& position) {
   const Eigen::Vector3i q =
       ((p - cell.cast<float>()) * static_cast<float>(Moments::resolution)).cast<int>();
   ++m.count;
+  m.lowest_beam = std::min(m.lowest_beam, beam);
+  m.highest_beam = std::max(m.highest_beam, beam);
   for (int a = 0; a < 3; ++a) m.sum[static_cast<std::size_t>(a)] += q[a];
   std::size_t k = 0;
   for (int a = 0; a < 3; ++a) {

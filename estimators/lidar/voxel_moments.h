@@ -1,4 +1,4 @@
-// The number, sum and second moments of the points in each voxel of a scan are kept here.
+// The number, sum, second moments and beams of the points in each voxel of a scan are kept here.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,6 +18,8 @@ struct Moments {
   std::int64_t count = 0;
   std::array<std::int64_t, 3> sum{};     // from the voxel's lower corner
   std::array<std::int64_t, 6> square{};  // xx, xy, xz, yy, yz, zz
+  float lowest_beam = 1.0f;  // sine of the elevation of the beams, in the scanner's axes
+  float highest_beam = -1.0f;
 
   // Returns the mean position from the voxel's lower corner, in voxels.
   Eigen::Vector3f mean() const {
@@ -34,8 +36,9 @@ class VoxelMoments {
   VoxelMoments(float size, int max_voxels);
 
   void clear();
-  // Precondition: |position| is below a million voxels. Returns false if no voxel is left.
-  bool add(const Eigen::Vector3f& position);
+  // `beam` is the sine of the elevation at which the scanner saw the point. Precondition:
+  // |position| is below a million voxels. Returns false if no voxel is left.
+  bool add(const Eigen::Vector3f& position, float beam);
   // Sorts by key. Afterwards voxels() and find() do not depend on the order of the additions.
   void sort();
 

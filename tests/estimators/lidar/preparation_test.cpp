@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "estimators/lidar/local_map.h"
 #include "estimators/lidar/scan_preparation.h"
 #include "tests/estimators/lidar/drive_scans.h"
 
@@ -154,6 +155,7 @@ TEST(ScanPreparation, NormalsOfTheRoadPointUp) {
                       &prepared);
   int road = 0, upright = 0;
   for (const SurfacePoint& p : prepared.points) {
+    if (!p.has_normal()) continue;
     EXPECT_NEAR(p.normal.norm(), 1.0f, 1e-4f);
     const bool below = p.position.z() < -0.7f && p.position.head<2>().norm() < 10.0f &&
                        std::abs(p.position.y()) < 2.0f;
@@ -162,6 +164,28 @@ TEST(ScanPreparation, NormalsOfTheRoadPointUp) {
   }
   EXPECT_GT(road, 20);
   EXPECT_GT(upright, road * 8 / 10);
+}
+
+// Points of one beam spread least across the beam, whatever it hit: here foliage ahead.
+TEST(ScanPreparation, OneBeamGivesNoNormalAndTwoGiveOne) {
+  for (const int beams : {1, 2}) {
+    LidarScan scan = empty_scan();
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> depth(-1.0f, 1.0f);
+    for (int i = 0; i < 400; ++i) {
+      const float x = 20.0f + depth(random), y = depth(random);
+      const float elevation = 0.01f + (i % 2 < beams - 1 ? 0.035f : 0.0f);
+      scan.points.push_back({x, y, std::hypot(x, y) * elevation, 0.0f});
+    }
+    ScanPreparation preparation(Eigen::Isometry3d::Identity(), {});
+    PreparedScan prepared;
+    preparation.prepare(scan, scan.stamp, {}, &prepared);
+    ASSERT_GT(prepared.points.size(), 3u);
+    for (const SurfacePoint& p : prepared.points) EXPECT_EQ(p.has_normal(), beams == 2);
+    LocalMap map{LidarParameters{}};
+    map.insert(prepared, Eigen::Isometry3d::Identity());
+    EXPECT_EQ(map.size() > 0, beams == 2) << "only normals are worth comparing with";
+  }
 }
 
 TEST(ScanPreparation, WhatIsNoPointIsCropped) {
