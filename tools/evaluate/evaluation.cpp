@@ -7,35 +7,12 @@
 #include <stdexcept>
 
 #include "msgs/frames.h"
+#include "tools/evaluate/alignment.h"
 #include "tools/web/html.h"
 #include "tools/web/page.h"
 
 namespace maploop::evaluation {
 namespace {
-
-Eigen::Matrix3Xd positions(const Trajectory& trajectory) {
-  Eigen::Matrix3Xd all(3, static_cast<Eigen::Index>(trajectory.size()));
-  for (std::size_t i = 0; i < trajectory.size(); ++i)
-    all.col(static_cast<Eigen::Index>(i)) = trajectory[i].translation();
-  return all;
-}
-
-// All figures are zero if there are no values.
-Statistics statistics(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  Statistics s;
-  for (const double v : values) {
-    s.mean += v;
-    s.rmse += v * v;
-  }
-  const auto count = static_cast<double>(values.size());
-  s.mean /= count;
-  s.rmse = std::sqrt(s.rmse / count);
-  s.median = 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
-  s.max = values.back();
-  return s;
-}
 
 // Returns the distances of the positions after `alignment` is applied to the estimate.
 std::vector<double> distances_apart(const Matched& m, const Eigen::Isometry3d& alignment) {
@@ -71,11 +48,28 @@ std::string of_statistics(const char* what, const char* unit, const Statistics& 
 
 }  // namespace
 
-Eigen::Isometry3d best_alignment(const Trajectory& estimate, const Trajectory& truth) {
-  if (estimate.size() != truth.size() || estimate.size() < 3)
-    throw std::invalid_argument(
-        "pose errors need three poses or more of the estimate, and as many of the truth");
-  return Eigen::Isometry3d(Eigen::umeyama(positions(estimate), positions(truth), false));
+double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], at - static_cast<double>(below));
+}
+
+Statistics statistics(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  Statistics s;
+  for (const double v : values) {
+    s.mean += v;
+    s.rmse += v * v;
+  }
+  const auto count = static_cast<double>(values.size());
+  s.mean /= count;
+  s.rmse = std::sqrt(s.rmse / count);
+  s.median = quantile(values, 0.5);
+  s.p95 = quantile(values, 0.95);
+  s.max = values.back();
+  return s;
 }
 
 web::Line seen_from_above(const std::string& name, const Trajectory& trajectory) {

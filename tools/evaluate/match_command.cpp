@@ -15,6 +15,7 @@
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
+#include "tools/evaluate/log_messages.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/match/match_score.h"
 #include "tools/match/track_file.h"
@@ -28,7 +29,7 @@ struct EvaluateMatchOptions {
 
 // When each frame of the labels was, on the clock of the matches.
 std::vector<Time> frame_stamps(const EvaluateMatchOptions& options) {
-  if (match::is_lcm_log(options.matched))
+  if (evaluation::is_lcm_log(options.matched))
     return sensors::OdometrySequence(options.frames, {}).image_stamps();
   std::vector<Time> stamps;
   for (const mapmatch::VehicleFix& fix : match::read_track(options.frames, {}))
@@ -55,7 +56,7 @@ int evaluate_match(const EvaluateMatchOptions& options) {
   std::vector<Time> stamps;
   if (!options.frames.empty()) {
     stamps = frame_stamps(options);
-  } else if (match::is_lcm_log(options.matched)) {
+  } else if (evaluation::is_lcm_log(options.matched)) {
     throw std::runtime_error(options.matched.string() +
                              " is a log: say when the frames were (--frames oxts/NN.csv)");
   }

@@ -7,6 +7,15 @@ export function element(tag: string, parent: HTMLElement, text = "", className =
   return e;
 }
 
+export function button(parent: HTMLElement, text: string, title: string, act: () => void): HTMLButtonElement {
+  const b = element("button", parent, text) as HTMLButtonElement;
+  b.type = "button";
+  b.title = title;
+  b.setAttribute("aria-label", title);
+  b.addEventListener("click", act);
+  return b;
+}
+
 export function table(parent: HTMLElement, heading: string[], rows: (string | HTMLElement)[][]): void {
   const body = document.createElement("table");
   if (heading.length > 0) {
