@@ -26,7 +26,7 @@ Eigen::Vector3d level(const Eigen::Vector3d& v, const Eigen::Vector3d& up) {
 }
 
 // Returns the angle about the vertical from pose a over i to b, rad. Positions alone show it only
-// where they move.
+// where they move; elsewhere it is not a number, and in no bin.
 double turn(const TruthTrack& truth, std::size_t a, std::size_t i, std::size_t b) {
   const Trajectory& poses = truth.trajectory.poses;
   if (truth.trajectory.has_attitude) {
@@ -36,7 +36,7 @@ double turn(const TruthTrack& truth, std::size_t a, std::size_t i, std::size_t b
   constexpr double least = 0.3;  // m
   const Eigen::Vector3d from = level(poses[i].translation() - poses[a].translation(), truth.up);
   const Eigen::Vector3d to = level(poses[b].translation() - poses[i].translation(), truth.up);
-  if (from.norm() < least || to.norm() < least) return 0.0;
+  if (from.norm() < least || to.norm() < least) return std::numeric_limits<double>::quiet_NaN();
   return 2.0 * std::atan2(truth.up.dot(from.cross(to)), from.dot(to));
 }
 

@@ -21,7 +21,7 @@ void append_row(std::string& html, const Row& row, const char* element) {
 }  // namespace
 
 std::string table_of_html(const Row& heading, const std::vector<Row>& rows) {
-  std::string html = "<div class=\"wide\"><table>\n";
+  std::string html = "<div class=\"wide\" tabindex=\"0\"><table>\n";
   append_row(html, heading, "th");
   for (const Row& row : rows) append_row(html, row, "td");
   return html + "</table></div>\n";

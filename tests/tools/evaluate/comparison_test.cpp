@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 // A camera that drives a bend of 200 m at 10 m/s, ten poses a second, in east, north, up.
-StampedTrajectory bend() {
+StampedTrajectory circle() {
   StampedTrajectory t;
   Eigen::Isometry3d R_body_cam = Eigen::Isometry3d::Identity();
   R_body_cam.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
@@ -41,15 +41,15 @@ StampedTrajectory moved(StampedTrajectory t, const Eigen::Isometry3d& motion, do
 }
 
 RunErrors errors(const StampedTrajectory& estimate, Align align,
-                 const StampedTrajectory& truth = bend()) {
+                 const StampedTrajectory& truth = circle()) {
   Comparison comparison{truth_track("truth", truth), align, {50.0}, {}};
   add_run(comparison, "run", match(estimate, truth, from_seconds(0.01)), estimate.has_attitude);
   return comparison.runs.front();
 }
 
 TEST(Comparison, WithoutAlignmentSplitsHorizontalFromVertical) {
-  const RunErrors run =
-      errors(moved(bend(), Eigen::Isometry3d(Eigen::Translation3d(3.0, 4.0, -12.0))), Align::none);
+  const RunErrors run = errors(
+      moved(circle(), Eigen::Isometry3d(Eigen::Translation3d(3.0, 4.0, -12.0))), Align::none);
   EXPECT_NEAR(run.horizontal_m.rmse, 5.0, 1e-9);
   EXPECT_NEAR(run.vertical_m.mean, 12.0, 1e-9);
   EXPECT_NEAR(run.vertical.front(), -12.0, 1e-9);
@@ -66,18 +66,18 @@ TEST(Comparison, EachAlignmentTakesAwayWhatItMay) {
     return errors(t, how).absolute_m.rmse;
   };
   for (const Align how : {Align::origin, Align::yaw, Align::se3, Align::sim3})
-    EXPECT_LT(rmse(moved(bend(), yawed), how), 1e-6) << to_string(how);
-  EXPECT_GT(rmse(moved(bend(), yawed), Align::none), 1.0);
-  EXPECT_GT(rmse(moved(bend(), tilted), Align::yaw), 1.0);
-  EXPECT_LT(rmse(moved(bend(), tilted), Align::se3), 1e-6);
-  const StampedTrajectory small = moved(bend(), yawed, 0.5);
+    EXPECT_LT(rmse(moved(circle(), yawed), how), 1e-6) << to_string(how);
+  EXPECT_GT(rmse(moved(circle(), yawed), Align::none), 1.0);
+  EXPECT_GT(rmse(moved(circle(), tilted), Align::yaw), 1.0);
+  EXPECT_LT(rmse(moved(circle(), tilted), Align::se3), 1e-6);
+  const StampedTrajectory small = moved(circle(), yawed, 0.5);
   EXPECT_GT(rmse(small, Align::se3), 1.0);
   EXPECT_LT(rmse(small, Align::sim3), 1e-6);
   EXPECT_NEAR(errors(small, Align::sim3).scale, 2.0, 1e-9);
 }
 
 TEST(Comparison, PosesWithoutPartnerAreCountedAndFramesAreTheTruths) {
-  StampedTrajectory late = bend();
+  StampedTrajectory late = circle();
   late.stamps.erase(late.stamps.begin(), late.stamps.begin() + 20);
   late.poses.erase(late.poses.begin(), late.poses.begin() + 20);
   late.stamps.back() += std::chrono::seconds(9);
@@ -89,7 +89,7 @@ TEST(Comparison, PosesWithoutPartnerAreCountedAndFramesAreTheTruths) {
 }
 
 TEST(Comparison, BinsAreThoseOfTheTruthsMotion) {
-  const RunErrors run = errors(bend(), Align::none);
+  const RunErrors run = errors(circle(), Align::none);
   ASSERT_EQ(run.by_speed.size(), 1u);
   EXPECT_EQ(run.by_speed[0].low, 30.0) << "36 km/h";
   EXPECT_EQ(run.by_speed[0].poses, 201u);
@@ -98,7 +98,7 @@ TEST(Comparison, BinsAreThoseOfTheTruthsMotion) {
 }
 
 TEST(Comparison, PositionsAloneHaveRelativeErrorsButNoRotation) {
-  StampedTrajectory places = bend();
+  StampedTrajectory places = circle();
   places.has_attitude = false;
   for (Eigen::Isometry3d& pose : places.poses) pose.linear().setIdentity();
   for (std::size_t i = 0; i < places.poses.size(); ++i)
@@ -111,9 +111,9 @@ TEST(Comparison, PositionsAloneHaveRelativeErrorsButNoRotation) {
 }
 
 Comparison two_runs() {
-  Comparison c{truth_track("truth.tum", bend()), Align::none, {50.0}, {}};
+  Comparison c{truth_track("truth.tum", circle()), Align::none, {50.0}, {}};
   for (const char* name : {"a_b.tum", "c,d|.tum"})
-    add_run(c, name, match(bend(), bend(), from_seconds(0.01)), true);
+    add_run(c, name, match(circle(), circle(), from_seconds(0.01)), true);
   return c;
 }
 

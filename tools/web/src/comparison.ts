@@ -50,7 +50,7 @@ class ComparisonPage {
     this.charts = new LinkedCharts(data, this.tokens, (change) => this.change(change));
     element("h2", place, "Errors along the drive");
     element("p", place, "Drag across a plot to look at a part of the drive; a double click shows all of it.");
-    const plots = element("div", place, "", "plots");
+    const plots = element("div", place, "", "plots along");
     for (const component of components) this.charts.draw(plots, component);
     this.drawDistributions();
     this.change({});
@@ -89,7 +89,7 @@ class ComparisonPage {
     slider.addEventListener("input", () => this.change({ at: Number(slider.value) }));
     button(parent, "+", "Shorter part of the drive", () => this.zoom(0.5));
     button(parent, "−", "Longer part of the drive", () => this.zoom(2));
-    button(parent, "Show all", "Show the whole drive", () => this.change({ from: -Infinity, to: Infinity }));
+    button(parent, "All", "Show the whole drive", () => this.change({ from: -Infinity, to: Infinity }));
     return slider;
   }
 

@@ -14,7 +14,7 @@ function part(parent: HTMLElement, kind: string, from: number, to: number, most:
 }
 
 function row(parent: HTMLElement, run: Run, label: string, token: string): HTMLElement {
-  const line = element("div", parent, "", "row");
+  const line = element("div", parent, "", label ? "row" : "row value");
   line.dataset["run"] = run.name;
   line.style.setProperty("--key", `var(--${token})`);
   if (label) element("span", line, label, "key");

@@ -11,7 +11,7 @@ export function button(parent: HTMLElement, text: string, title: string, act: ()
   const b = element("button", parent, text) as HTMLButtonElement;
   b.type = "button";
   b.title = title;
-  b.setAttribute("aria-label", title);
+  if (!/\w/.test(text)) b.setAttribute("aria-label", title);
   b.addEventListener("click", act);
   return b;
 }

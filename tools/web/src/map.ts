@@ -116,7 +116,9 @@ export class MapView {
       if (line.look === "points") return this.dots(line.x, line.y);
       context.setLineDash(line.look === "dashed" ? [6, 5] : []);
       context.lineWidth = line.width ?? 2;
+      context.globalAlpha = line.opacity ?? 1;
       this.stroke(line.x, line.y);
+      context.globalAlpha = 1;
     });
     context.setLineDash([]);
     this.extra(this, context);

@@ -58,7 +58,8 @@ export class Plane {
   refresh(fit = false): void {
     const { truth, runs } = this.data;
     const runLines = this.isColoured ? [] : this.shown().map(([run, token]) => this.lineOf(run, token, 2));
-    this.map.lines = [this.lineOf(truth, "truth", this.isColoured ? 1 : 5), ...runLines];
+    const beneath = { ...this.lineOf(truth, "truth", 7), opacity: 0.35 };
+    this.map.lines = [beneath, ...runLines];
     if (fit) this.map.fit();
     this.showScale(runs);
     this.map.redraw();
@@ -89,7 +90,7 @@ export class Plane {
 
   private drawColoured(map: MapView, context: CanvasRenderingContext2D): void {
     const most = this.largest(this.data.runs);
-    context.lineWidth = 4;
+    context.lineWidth = 3;
     for (const [run] of this.shown()) {
       const [from, to] = part(run, this.view);
       const stepOf = (i: number) => Math.min(1 + Math.floor((steps * Math.abs(run[this.component][i]!)) / most), steps);

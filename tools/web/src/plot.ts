@@ -9,6 +9,7 @@ export interface Line {
   look?: "solid" | "dashed" | "steps" | "points";
   token?: string; // of its colour (palette.ts)
   width?: number; // px, on a map
+  opacity?: number; // on a map
 }
 
 export interface Band {
