@@ -4,15 +4,15 @@
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { after, before, test } from "node:test";
 
 import { chromium } from "playwright-core";
 
+import { assertAccessible } from "./accessible.mjs";
+
 const [maploop, pictures, executablePath] = process.argv.slice(2);
-const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 const file = join(pictures, "comparison.html");
 
 // Poses of a camera in east, north, up on a bend: it stands, then drives, and each run drifts in its own way.
@@ -73,9 +73,7 @@ for (const colours of ["light", "dark"])
       const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
       assert.ok(overflow <= 0, `${overflow} px beyond the edge`);
       await page.screenshot({ path: join(pictures, `comparison-${width}-${colours}.png`), fullPage: true });
-      await page.addScriptTag({ path: axe });
-      const { violations } = await page.evaluate(() => globalThis.axe.run());
-      assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(" ")}`), []);
+      await assertAccessible(page);
       await page.close();
     });
 

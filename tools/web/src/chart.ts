@@ -46,9 +46,11 @@ function axis(label: string): uPlot.Axis {
   };
 }
 
-// 1, 2 and 5 of each decade.
-const logarithmic: uPlot.Axis["filter"] = (_, ticks) =>
-  ticks.map((v) => ([1, 2, 5].includes(Math.round(v / 10 ** Math.floor(Math.log10(v) + 1e-9))) ? v : null));
+// 1, 2 and 5 of each decade, or 1 if there are many.
+const logarithmic: uPlot.Axis["filter"] = (_, ticks) => {
+  const digits = ticks[ticks.length - 1]! / ticks[0]! > 300 ? [1] : [1, 2, 5];
+  return ticks.map((v) => (digits.includes(Math.round(v / 10 ** Math.floor(Math.log10(v) + 1e-9))) ? v : null));
+};
 
 function drawMark(chart: uPlot, mark: NonNullable<Plot["x_mark"]>): void {
   const { ctx, bbox } = chart;
@@ -80,7 +82,7 @@ export function drawChart(figure: HTMLElement, plot: Plot, more: Partial<uPlot.O
   const bands = plot.bands ?? [];
   const edges = bands.flatMap((band, i): uPlot.Series[] => {
     const edge = { stroke: () => `rgb(from ${ink(tokenOf(i))} r g b / 0.3)`, width: 1, points: { show: false } };
-    return [{ ...edge, label: `${band.name}, low` }, { ...edge, label: band.name }];
+    return [{ ...edge, label: `${band.name}, low`, class: "unnamed" }, { ...edge, label: band.name }];
   });
   const tables = [
     ...bands.map((band) => table(band.x, [band.low, band.high], log)),

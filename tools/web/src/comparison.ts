@@ -97,7 +97,7 @@ class ComparisonPage {
     const label = element("label", parent, "");
     const coloured = element("input", label) as HTMLInputElement;
     coloured.type = "checkbox";
-    label.append(" Colour the way by ");
+    label.append(" Colour the way (last run on top) by ");
     const choice = element("select", parent) as HTMLSelectElement;
     choice.setAttribute("aria-label", "Error that colours the way");
     for (const component of components) choice.append(new Option(`${names[component]} error`, component));

@@ -69,11 +69,17 @@ const meanings: [RegExp, string][] = [
   [/gnss|\bfix(es)?\b/i, "gnss"],
   [/matched/i, "matched"],
 ];
+// What the name says first: "fused minus truth" is of the fused state.
+function meaningOf(name: string): string | undefined {
+  const found = meanings.map(([pattern, token]) => ({ at: name.search(pattern), token })).filter(({ at }) => at >= 0);
+  return found.sort((a, b) => a.at - b.at)[0]?.token;
+}
+
 const series = [1, 2, 3, 4, 5, 6, 7, 8].map((i) => `series-${i}`);
 
 // The token of each line: of what its name says, else the next one that no other line has.
 export function tokensOf(names: string[]): string[] {
-  const own = names.map((name) => meanings.find(([pattern]) => pattern.test(name))?.[1]);
+  const own = names.map(meaningOf);
   const used = new Set(own.map((token) => token && ink(token)));
   const free = series.filter((token) => !used.has(ink(token)));
   let next = 0;
