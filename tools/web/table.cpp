@@ -10,10 +10,12 @@ Row escaped_row(Row row) {
   return row;
 }
 
-void append_row(std::string& html, const Row& row, const char* element) {
+// A heading without a text is a plain cell.
+void append_row(std::string& html, const Row& row, const std::string& element) {
   html += "<tr>";
   for (const std::string& cell : row) {
-    html += '<' + std::string(element) + '>' + cell + "</" + element + '>';
+    const std::string kind = cell.empty() ? "td" : element;
+    html += '<' + kind + '>' + cell + "</" + kind + '>';
   }
   html += "</tr>\n";
 }

@@ -102,7 +102,7 @@ export function drawChart(figure: HTMLElement, plot: Plot, more: Partial<uPlot.O
     })),
     axes,
     scales: { x: { time: false, distr: log[0] ? 3 : 1 }, y: { distr: log[1] ? 3 : 1 } },
-    legend: { markers: { width: 0, fill: (_, i) => `var(--${tokenOf(i - 1 - edges.length)})` } },
+    legend: { markers: { width: 0, fill: (_, i) => `var(--${tokenOf(i > edges.length ? i - 1 - edges.length : (i - 1) >> 1)})` } },
     plugins: plot.x_mark ? [{ hooks: { draw: (chart) => drawMark(chart, plot.x_mark!) } }] : [],
     ...more,
   };

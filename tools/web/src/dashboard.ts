@@ -22,6 +22,8 @@ for (const [name, token] of [["truth", "truth"], ["fused", "fused"], ["fixes", "
   element("span", legend, name).style.setProperty("--key", `var(--${token})`);
 const views = new Views(element("section", left, "", "views"));
 const side = element("aside", main);
+side.tabIndex = 0; // so that keys can scroll it
+element("h1", side, "maploop", "unseen");
 const notice = element("div", side, "Connecting…", "notice");
 
 const ended = element("section", side, "", "verdict");

@@ -20,7 +20,7 @@ export function table(parent: HTMLElement, heading: string[], rows: (string | HT
   const body = document.createElement("table");
   if (heading.length > 0) {
     const row = element("tr", body);
-    for (const text of heading) element("th", row, text);
+    for (const text of heading) element(text ? "th" : "td", row, text);
   }
   for (const cells of rows) {
     const row = element("tr", body);

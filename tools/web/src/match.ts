@@ -203,6 +203,7 @@ if (text) {
   legend(element("div", panel, "", "legend"));
   const steps = element("div", panel, "", "steps");
   const details = element("div", panel, "", "details");
+  details.tabIndex = 0; // so that keys can scroll it
   element("p", details, "Click a fix: its candidates, their probability P, the likelihood L of the rules, and the rules that applied.");
   const page = new MatchPage(JSON.parse(text) as Data, document.getElementById("map")!, details);
   for (const [name, by] of [["‹ before", -1], ["next ›", 1]] as const)
