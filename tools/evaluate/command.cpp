@@ -109,24 +109,6 @@ void write_tum(const EvaluateOptions& options, const evaluation::Matched& matche
   evaluation::write_tum(options.tum, aligned);
 }
 
-int evaluate(const EvaluateOptions& options) {
-  const std::filesystem::path& estimate = options.files.front();
-  const auto truth = read_truth(options);
-  const evaluation::Matched matched =
-      matched_with(truth, evaluation::read_trajectory(estimate), estimate, options);
-  const evaluation::Evaluation result = evaluation::evaluate(matched, options.lengths);
-  std::cout << to_text(result);
-  if (!options.json.empty()) write_json_file(options.json, to_json(result));
-  if (!options.tum.empty())
-    write_tum(options, matched, evaluation::best_alignment(matched.estimate, matched.truth));
-  if (!options.csv.empty()) evaluation::write_text(options.csv, to_csv(result));
-  if (!options.html.empty())
-    evaluation::write_text(options.html,
-                           to_html(result, estimate.filename().string() + " against " +
-                                               options.truth.filename().string()));
-  return 0;
-}
-
 // Returns the file's name, or its whole path if another one has the same name.
 std::string name_of(const std::filesystem::path& file, const EvaluateOptions& options) {
   const auto same = std::count_if(
@@ -153,6 +135,24 @@ int compare(const EvaluateOptions& options) {
     write_tum(options, comparison.runs.front().matched, Eigen::Isometry3d::Identity());
   if (!options.csv.empty()) evaluation::write_text(options.csv, to_csv(comparison));
   if (!options.html.empty()) evaluation::write_text(options.html, to_html(comparison));
+  return 0;
+}
+
+int evaluate(const EvaluateOptions& options) {
+  const std::filesystem::path& file = options.files.front();
+  const auto truth = read_truth(options), estimate = evaluation::read_trajectory(file);
+  // KITTI's metric and the steps from pose to pose need attitudes.
+  if (!truth.has_attitude || !estimate.has_attitude) return compare(options);
+  const evaluation::Matched matched = matched_with(truth, estimate, file, options);
+  const evaluation::Evaluation result = evaluation::evaluate(matched, options.lengths);
+  std::cout << to_text(result);
+  if (!options.json.empty()) write_json_file(options.json, to_json(result));
+  if (!options.tum.empty())
+    write_tum(options, matched, evaluation::best_alignment(matched.estimate, matched.truth));
+  if (!options.csv.empty()) evaluation::write_text(options.csv, to_csv(result));
+  if (!options.html.empty())
+    evaluation::write_text(options.html, to_html(result, file.filename().string() + " against " +
+                                                             options.truth.filename().string()));
   return 0;
 }
 
@@ -187,9 +187,9 @@ void add_evaluate(CLI::App& app, Command& command) {
                       "The truth; matched by stamps where both have them, else frame by frame. "
                       "All other files are then compared with it, in one table");
   auto* align = add_choice(sub, "--align", options->align,
-                           "Before absolute errors are taken, move the run onto the truth: not, by "
-                           "the first pose, by the best yaw and translation, rigidly (se3, without "
-                           "it), or also by scale");
+                           "How a run is moved onto the truth before absolute errors are taken: "
+                           "none, origin (by the first pose), yaw (and translation), se3 (rigidly; "
+                           "the default), sim3 (and scale). Compares as --truth does");
   add_evaluate_match(*sub, command);
   sub->add_option("--lengths", options->lengths, "Segment lengths in metres")
       ->delimiter(',')

@@ -150,9 +150,10 @@ TEST(Comparison, ThePageIsThinnedButKeepsTheExtremes) {
   estimate.poses[31234].translation().y() += 7.5;
   estimate.poses[41234].translation().z() -= 2.5;
   Comparison c{truth_track("truth", truth), Align::none, {100.0}, {}};
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 4; ++i) {
     add_run(c, std::string(1, static_cast<char>('a' + i)),
             match(estimate, truth, from_seconds(0.001)), true);
+  }
   const std::string page = to_html(c);
   EXPECT_LT(page.size(), 10'000'000u);
   EXPECT_THAT(page, HasSubstr("are thinned"));
