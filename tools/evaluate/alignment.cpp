@@ -45,9 +45,10 @@ Eigen::Isometry3d Alignment::operator()(Eigen::Isometry3d pose) const {
 }
 
 Eigen::Isometry3d best_alignment(const Trajectory& estimate, const Trajectory& truth) {
-  if (estimate.size() != truth.size() || estimate.size() < 3)
+  if (estimate.size() != truth.size() || estimate.size() < 3) {
     throw std::invalid_argument(
         "pose errors need three poses or more of the estimate, and as many of the truth");
+  }
   return Eigen::Isometry3d(Eigen::umeyama(positions(estimate), positions(truth), false));
 }
 

@@ -41,10 +41,11 @@ nlohmann::json to_json(const evaluation::Statistics& s) {
 
 nlohmann::json to_json(const evaluation::Evaluation& e) {
   nlohmann::json lengths = nlohmann::json::array();
-  for (const auto& l : e.lengths)
+  for (const auto& l : e.lengths) {
     lengths.push_back({{"length_m", l.length_m},
                        {"raw", to_json(l.raw)},
                        {"common_rotation_removed", to_json(l.common_rotation_removed)}});
+  }
   return {{"frames", e.matched.truth.size()},
           {"unmatched",
            {{"estimate", e.matched.unmatched_estimate}, {"truth", e.matched.unmatched_truth}}},
@@ -73,9 +74,10 @@ evaluation::StampedTrajectory between(evaluation::StampedTrajectory whole, std::
 
 evaluation::StampedTrajectory read_truth(const EvaluateOptions& options) {
   auto truth = evaluation::read_trajectory(options.truth, evaluation::Role::truth);
-  if (!options.kitti_poses_of.empty())
+  if (!options.kitti_poses_of.empty()) {
     truth.poses = evaluation::from_kitti_mercator(truth.poses, radians(options.kitti_poses_of[0]),
                                                   radians(options.kitti_poses_of[1]));
+  }
   return truth;
 }
 
@@ -91,19 +93,21 @@ evaluation::Matched matched_with(const evaluation::StampedTrajectory& truth,
   if (by_frame) {
     for (std::size_t& frame : matched.frames) frame += options.first;
   }
-  if (matched.truth.size() < 3)
+  if (matched.truth.size() < 3) {
     throw std::runtime_error(file.string() + " and " + options.truth.string() + " have " +
                              std::to_string(matched.truth.size()) +
                              " poses at the same moments, and three are needed: do their stamps "
                              "have one clock? See --max-difference");
+  }
   return matched;
 }
 
 void write_tum(const EvaluateOptions& options, const evaluation::Matched& matched,
                const Eigen::Isometry3d& moved) {
-  if (matched.stamps.empty())
+  if (matched.stamps.empty()) {
     throw std::runtime_error("--tum: " + options.files.front().string() +
                              " has no stamps; TUM's format needs them");
+  }
   evaluation::StampedTrajectory aligned{matched.stamps, {}};
   for (const Eigen::Isometry3d& pose : matched.estimate) aligned.poses.push_back(moved * pose);
   evaluation::write_tum(options.tum, aligned);
@@ -150,9 +154,10 @@ int evaluate(const EvaluateOptions& options) {
   if (!options.tum.empty())
     write_tum(options, matched, evaluation::best_alignment(matched.estimate, matched.truth));
   if (!options.csv.empty()) evaluation::write_text(options.csv, to_csv(result));
-  if (!options.html.empty())
+  if (!options.html.empty()) {
     evaluation::write_text(options.html, to_html(result, file.filename().string() + " against " +
                                                              options.truth.filename().string()));
+  }
   return 0;
 }
 

@@ -74,13 +74,14 @@ class Plane {
 
 json json_of(const std::vector<ErrorBin>& bins) {
   json list = json::array();
-  for (const ErrorBin& bin : bins)
+  for (const ErrorBin& bin : bins) {
     list.push_back(
         {{"low", bin.low},
          {"high", bin.high < std::numeric_limits<double>::max() ? json(bin.high) : json()},
          {"rmse", bin.absolute.rmse},
          {"p95", bin.absolute.p95},
          {"poses", bin.poses}});
+  }
   return list;
 }
 

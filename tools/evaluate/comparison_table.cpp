@@ -33,9 +33,10 @@ class TableBuilder {
                                       {"mean", &Statistics::mean},
                                       {"median", &Statistics::median},
                                       {"95 %", &Statistics::p95},
-                                      {"max", &Statistics::max}})
+                                      {"max", &Statistics::max}}) {
       add(name + ' ' + part, "m",
           [of, value = value](const RunErrors& run) { return web::figure(run.*of.*value, 3); });
+    }
   }
 
   FigureTable table;
@@ -98,9 +99,10 @@ std::string letter(std::size_t run) {
 
 std::string said_of(const RunErrors& run) {
   std::string text = fmt::format("{} poses scored", run.matched.truth.size());
-  if (run.matched.unmatched_estimate + run.matched.unmatched_truth > 0)
+  if (run.matched.unmatched_estimate + run.matched.unmatched_truth > 0) {
     text += fmt::format("; without a partner: {} of its own, {} of the truth",
                         run.matched.unmatched_estimate, run.matched.unmatched_truth);
+  }
   return text;
 }
 

@@ -102,17 +102,19 @@ Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m) {
 
 std::string to_text(const Evaluation& e) {
   std::string text = fmt::format("{} poses, {:.1f} m\n", e.matched.truth.size(), e.raw.distance_m);
-  if (e.matched.unmatched_estimate + e.matched.unmatched_truth > 0)
+  if (e.matched.unmatched_estimate + e.matched.unmatched_truth > 0) {
     text += fmt::format(
         "not scored, for want of a partner: {} poses of the estimate, {} of the truth\n",
         e.matched.unmatched_estimate, e.matched.unmatched_truth);
+  }
   text += fmt::format("end point {:.3f} m ({:.3f} %); one common rotation removed: {:.3f} m\n\n",
                       e.raw.end_point_m, e.raw.end_point_percent,
                       e.common_rotation_removed.end_point_m) +
           "segments                      %      deg/m   common rotation removed     number\n";
-  for (const LengthError& l : e.lengths)
+  for (const LengthError& l : e.lengths) {
     text += fmt::format("{:6.0f} m          {}   {} {:10}\n", l.length_m, of_segments(l.raw),
                         of_segments(l.common_rotation_removed), l.raw.segments);
+  }
   text += fmt::format("KITTI, 100-800 m {} {:35}\n\n", of_segments(e.kitti), e.kitti.segments);
   text += of_statistics("APE, best rigid alignment", "m", e.ape);
   text += of_statistics("RPE, pose to pose", "m", e.rpe_m);
@@ -123,9 +125,10 @@ std::string to_text(const Evaluation& e) {
 std::string to_csv(const Evaluation& e) {
   std::string text = "stamp,way,from_start,aligned,step,step_deg\n";
   for (std::size_t i = 0; i < e.matched.truth.size(); ++i) {
-    if (!e.matched.stamps.empty())
+    if (!e.matched.stamps.empty()) {
       text +=
           fmt::format("{:.6f}", static_cast<double>(to_nanoseconds(e.matched.stamps[i])) * 1e-9);
+    }
     text += fmt::format(",{:.4f},{:.4f},{:.4f},", e.errors.along[i], e.errors.from_start[i],
                         e.errors.aligned[i]);
     text += i == 0 ? ","

@@ -18,10 +18,11 @@ void visit_log(const std::filesystem::path& file,
                const std::function<void(const lcm_log::LogEvent&)>& visit) {
   const auto log = sensors::open_log(file, schema::own_schema());
   for (auto item = log->next(); item != sensors::LogEvents::Item::end; item = log->next()) {
-    if (item == sensors::LogEvents::Item::damage)
+    if (item == sensors::LogEvents::Item::damage) {
       throw std::runtime_error(file.string() + " is damaged at byte " +
                                std::to_string(log->damage().begin) + " (" + log->damage().reason +
                                "); 'maploop log recover' makes a sound one of it");
+    }
     visit(log->event());
   }
 }

@@ -65,9 +65,10 @@ StampedTrajectory read_log_trajectory(const std::filesystem::path& file, Role ro
           {state.stamp, LocalFrame(state.origin).to_geodetic(state.position_enu), state.attitude});
     }
   });
-  if (places.empty())
+  if (places.empty()) {
     throw std::runtime_error(file.string() + " has no " + std::string(channel) +
                              "; is it a log of 'maploop replay --record'?");
+  }
   return in_frame(places, origin.value_or(places.front().position), T_body_cam);
 }
 

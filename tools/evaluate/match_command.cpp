@@ -72,10 +72,11 @@ int evaluate_match(const EvaluateMatchOptions& options) {
     rows.push_back(*frame);
     table += row(matches[i], *frame, label->second);
   }
-  if (rows.empty())
+  if (rows.empty()) {
     throw std::runtime_error(
         options.matched.string() + " has no match at a frame of " + options.labels.string() +
         ": is it of this drive, and are the frames its rows (else: --frames)?");
+  }
   match::MatchScore score;
   score.add(matched, rows, labels);
   std::cout << match::to_text(score) << match::to_text(score.reliability);

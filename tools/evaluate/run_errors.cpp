@@ -87,16 +87,18 @@ void add_absolute(RunErrors& run, const Eigen::Vector3d& up) {
 }  // namespace
 
 TruthTrack truth_track(std::string name, StampedTrajectory trajectory) {
-  if (trajectory.poses.size() < 3)
+  if (trajectory.poses.size() < 3) {
     throw std::runtime_error(name + " has " + std::to_string(trajectory.poses.size()) +
                              " poses, and a truth needs three");
+  }
   TruthTrack truth{std::move(name), std::move(trajectory), {}, {}, {}, {}, {}};
   truth.up = vertical_of(truth.trajectory);
   truth.way = distances(truth.trajectory.poses);
   const auto& stamps = truth.trajectory.stamps;
-  for (std::size_t i = 0; i < truth.way.size(); ++i)
+  for (std::size_t i = 0; i < truth.way.size(); ++i) {
     truth.time.push_back(stamps.empty() ? static_cast<double>(i)
                                         : to_seconds(stamps[i] - stamps.front()));
+  }
   if (!stamps.empty()) add_motion(truth);
   return truth;
 }

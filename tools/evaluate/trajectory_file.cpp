@@ -91,11 +91,12 @@ StampedTrajectory read_trajectory(const std::filesystem::path& file, Role role) 
         continue;
       }
     }
-    if (words.size() != count)
+    if (words.size() != count) {
       lines.fail("this line has " + std::to_string(words.size()) + " fields, not " +
                  std::to_string(count) +
                  "; a trajectory is KITTI (12 numbers a line), TUM (8), recorded truth (CSV with "
                  "t and cam_x ... cam_qz), RTKLIB's .pos or a log");
+    }
     Cells in_order;
     for (const std::size_t column : columns) in_order.push_back(words[column]);
     const TumPose pose = tum_pose(lines, in_order);
@@ -122,12 +123,14 @@ Trajectory read_kitti_poses(const std::filesystem::path& file) {
 void write_kitti_poses(const std::filesystem::path& file, const Trajectory& trajectory) {
   std::string text;
   for (const Eigen::Isometry3d& pose : trajectory) {
-    if (!pose.affine().allFinite())
+    if (!pose.affine().allFinite()) {
       throw std::invalid_argument("pose " + std::to_string(&pose - trajectory.data()) +
                                   " is not finite; " + file.string() + " was not written");
-    for (int row = 0; row < 3; ++row)
+    }
+    for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column)
         text += runtime::shortest_text(pose(row, column)) + (row == 2 && column == 3 ? '\n' : ' ');
+    }
   }
   write_text(file, text);
 }

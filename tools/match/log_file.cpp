@@ -57,10 +57,11 @@ Track read_log_track(const std::filesystem::path& file) {
     }
   });
   if (!states.empty()) return with_visual_course(states, visual);
-  if (fixes.empty())
+  if (fixes.empty()) {
     throw std::runtime_error(file.string() +
                              " holds neither NAV_STATE nor GNSS_FIX; is it a log of 'maploop "
                              "replay --record'?");
+  }
   return fixes;
 }
 
@@ -70,9 +71,10 @@ std::vector<TimedMatch> read_log_matches(const std::filesystem::path& file) {
     if (event.channel != channel_names::map_match) return;
     matches.push_back(timed_match(decoded<maploop_lcm::map_match_t>(event, file)));
   });
-  if (matches.empty())
+  if (matches.empty()) {
     throw std::runtime_error(file.string() +
                              " holds no MAP_MATCH; was it recorded with 'maploop replay --map'?");
+  }
   return matches;
 }
 

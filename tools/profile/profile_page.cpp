@@ -157,6 +157,7 @@ std::string miss_bars(std::vector<WorstMiss> worst, Time end) {
   }
   Names names;
   std::vector<web::Row> rows;
+  rows.reserve(worst.size());
   for (const WorstMiss& w : worst) {
     rows.push_back({escaped(w.of), web::figure(to_seconds(end - w.miss.stamp), 2),
                     web::figure(to_milliseconds(w.miss.latency), 1), miss_bar(w, names, longest)});
