@@ -99,7 +99,7 @@ std::string latency_table(const Profile& p) {
       for (std::string& cell : row) cell = escaped(cell);
       if (l.misses == 0 || p.virtual_time()) continue;
       std::string& cell = row[static_cast<std::size_t>(missed)];
-      cell = "<b class=\"missed\">" + cell + "</b>";
+      cell = fmt::format("<b class=\"missed\">{}</b>", cell);
     }
   }
   return web::table_of_html(heading, rows);
