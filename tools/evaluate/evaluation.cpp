@@ -7,35 +7,12 @@
 #include <stdexcept>
 
 #include "msgs/frames.h"
+#include "tools/evaluate/alignment.h"
 #include "tools/web/html.h"
 #include "tools/web/page.h"
 
 namespace maploop::evaluation {
 namespace {
-
-Eigen::Matrix3Xd positions(const Trajectory& trajectory) {
-  Eigen::Matrix3Xd all(3, static_cast<Eigen::Index>(trajectory.size()));
-  for (std::size_t i = 0; i < trajectory.size(); ++i)
-    all.col(static_cast<Eigen::Index>(i)) = trajectory[i].translation();
-  return all;
-}
-
-// All figures are zero if there are no values.
-Statistics statistics(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  Statistics s;
-  for (const double v : values) {
-    s.mean += v;
-    s.rmse += v * v;
-  }
-  const auto count = static_cast<double>(values.size());
-  s.mean /= count;
-  s.rmse = std::sqrt(s.rmse / count);
-  s.median = 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
-  s.max = values.back();
-  return s;
-}
 
 // Returns the distances of the positions after `alignment` is applied to the estimate.
 std::vector<double> distances_apart(const Matched& m, const Eigen::Isometry3d& alignment) {
@@ -71,11 +48,28 @@ std::string of_statistics(const char* what, const char* unit, const Statistics& 
 
 }  // namespace
 
-Eigen::Isometry3d best_alignment(const Trajectory& estimate, const Trajectory& truth) {
-  if (estimate.size() != truth.size() || estimate.size() < 3)
-    throw std::invalid_argument(
-        "pose errors need three poses or more of the estimate, and as many of the truth");
-  return Eigen::Isometry3d(Eigen::umeyama(positions(estimate), positions(truth), false));
+double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], at - static_cast<double>(below));
+}
+
+Statistics statistics(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  Statistics s;
+  for (const double v : values) {
+    s.mean += v;
+    s.rmse += v * v;
+  }
+  const auto count = static_cast<double>(values.size());
+  s.mean /= count;
+  s.rmse = std::sqrt(s.rmse / count);
+  s.median = quantile(values, 0.5);
+  s.p95 = quantile(values, 0.95);
+  s.max = values.back();
+  return s;
 }
 
 web::Line seen_from_above(const std::string& name, const Trajectory& trajectory) {
@@ -108,17 +102,19 @@ Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m) {
 
 std::string to_text(const Evaluation& e) {
   std::string text = fmt::format("{} poses, {:.1f} m\n", e.matched.truth.size(), e.raw.distance_m);
-  if (e.matched.unmatched_estimate + e.matched.unmatched_truth > 0)
+  if (e.matched.unmatched_estimate + e.matched.unmatched_truth > 0) {
     text += fmt::format(
         "not scored, for want of a partner: {} poses of the estimate, {} of the truth\n",
         e.matched.unmatched_estimate, e.matched.unmatched_truth);
+  }
   text += fmt::format("end point {:.3f} m ({:.3f} %); one common rotation removed: {:.3f} m\n\n",
                       e.raw.end_point_m, e.raw.end_point_percent,
                       e.common_rotation_removed.end_point_m) +
           "segments                      %      deg/m   common rotation removed     number\n";
-  for (const LengthError& l : e.lengths)
+  for (const LengthError& l : e.lengths) {
     text += fmt::format("{:6.0f} m          {}   {} {:10}\n", l.length_m, of_segments(l.raw),
                         of_segments(l.common_rotation_removed), l.raw.segments);
+  }
   text += fmt::format("KITTI, 100-800 m {} {:35}\n\n", of_segments(e.kitti), e.kitti.segments);
   text += of_statistics("APE, best rigid alignment", "m", e.ape);
   text += of_statistics("RPE, pose to pose", "m", e.rpe_m);
@@ -129,9 +125,10 @@ std::string to_text(const Evaluation& e) {
 std::string to_csv(const Evaluation& e) {
   std::string text = "stamp,way,from_start,aligned,step,step_deg\n";
   for (std::size_t i = 0; i < e.matched.truth.size(); ++i) {
-    if (!e.matched.stamps.empty())
+    if (!e.matched.stamps.empty()) {
       text +=
           fmt::format("{:.6f}", static_cast<double>(to_nanoseconds(e.matched.stamps[i])) * 1e-9);
+    }
     text += fmt::format(",{:.4f},{:.4f},{:.4f},", e.errors.along[i], e.errors.from_start[i],
                         e.errors.aligned[i]);
     text += i == 0 ? ","

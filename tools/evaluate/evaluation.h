@@ -14,7 +14,15 @@ namespace maploop::evaluation {
 
 struct Statistics {
   double rmse = 0.0, mean = 0.0, median = 0.0, max = 0.0;
+  double p95 = 0.0;
 };
+
+// All figures are zero if there are no values.
+Statistics statistics(std::vector<double> values);
+
+// Returns the value that `share` of all are at most, between two of them by their distance.
+// Precondition: there are values, in increasing order.
+double quantile(const std::vector<double>& sorted, double share);
 
 struct LengthError {
   double length_m = 0.0;
@@ -42,11 +50,6 @@ struct Evaluation {
 
 // Throws std::invalid_argument if fewer than three poses match or a length is not positive.
 Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m);
-
-// Returns the rigid motion that brings the estimate's positions nearest to the truth's (Umeyama
-// 1991, no scale). Throws std::invalid_argument unless both have the same length of at least three
-// poses.
-Eigen::Isometry3d best_alignment(const Trajectory& estimate, const Trajectory& truth);
 
 std::string to_text(const Evaluation& evaluation);
 

@@ -15,6 +15,7 @@
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
+#include "tools/evaluate/log_messages.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/match/match_score.h"
 #include "tools/match/track_file.h"
@@ -28,7 +29,7 @@ struct EvaluateMatchOptions {
 
 // When each frame of the labels was, on the clock of the matches.
 std::vector<Time> frame_stamps(const EvaluateMatchOptions& options) {
-  if (match::is_lcm_log(options.matched))
+  if (evaluation::is_lcm_log(options.matched))
     return sensors::OdometrySequence(options.frames, {}).image_stamps();
   std::vector<Time> stamps;
   for (const mapmatch::VehicleFix& fix : match::read_track(options.frames, {}))
@@ -55,7 +56,7 @@ int evaluate_match(const EvaluateMatchOptions& options) {
   std::vector<Time> stamps;
   if (!options.frames.empty()) {
     stamps = frame_stamps(options);
-  } else if (match::is_lcm_log(options.matched)) {
+  } else if (evaluation::is_lcm_log(options.matched)) {
     throw std::runtime_error(options.matched.string() +
                              " is a log: say when the frames were (--frames oxts/NN.csv)");
   }
@@ -71,10 +72,11 @@ int evaluate_match(const EvaluateMatchOptions& options) {
     rows.push_back(*frame);
     table += row(matches[i], *frame, label->second);
   }
-  if (rows.empty())
+  if (rows.empty()) {
     throw std::runtime_error(
         options.matched.string() + " has no match at a frame of " + options.labels.string() +
         ": is it of this drive, and are the frames its rows (else: --frames)?");
+  }
   match::MatchScore score;
   score.add(matched, rows, labels);
   std::cout << match::to_text(score) << match::to_text(score.reliability);

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "runtime/core/number_text.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/pose_odometry.h"
+#include "tools/evaluate/log_messages.h"
 #include "tools/evaluate/text_file.h"
 
 namespace maploop::evaluation {
@@ -71,7 +73,10 @@ TumPose tum_pose(const TextLines& lines, const Cells& words) {
   return {stamp_of(lines, words[0]), {v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}};
 }
 
-StampedTrajectory read_trajectory(const std::filesystem::path& file) {
+StampedTrajectory read_trajectory(const std::filesystem::path& file, Role role) {
+  if (is_lcm_log(file)) return read_log_trajectory(file, role);
+  const std::string name = file.string();
+  if (name.ends_with(".pos") || name.ends_with(".pos.gz")) return read_rtklib_positions(file);
   const std::string text = read_text(file);
   TextLines lines(text, file.string());
   StampedTrajectory trajectory;
@@ -86,11 +91,12 @@ StampedTrajectory read_trajectory(const std::filesystem::path& file) {
         continue;
       }
     }
-    if (words.size() != count)
+    if (words.size() != count) {
       lines.fail("this line has " + std::to_string(words.size()) + " fields, not " +
                  std::to_string(count) +
-                 "; a trajectory is KITTI (12 numbers a line), TUM (8) or recorded truth (CSV with "
-                 "t and cam_x ... cam_qz)");
+                 "; a trajectory is KITTI (12 numbers a line), TUM (8), recorded truth (CSV with "
+                 "t and cam_x ... cam_qz), RTKLIB's .pos or a log");
+    }
     Cells in_order;
     for (const std::size_t column : columns) in_order.push_back(words[column]);
     const TumPose pose = tum_pose(lines, in_order);
@@ -117,12 +123,14 @@ Trajectory read_kitti_poses(const std::filesystem::path& file) {
 void write_kitti_poses(const std::filesystem::path& file, const Trajectory& trajectory) {
   std::string text;
   for (const Eigen::Isometry3d& pose : trajectory) {
-    if (!pose.affine().allFinite())
+    if (!pose.affine().allFinite()) {
       throw std::invalid_argument("pose " + std::to_string(&pose - trajectory.data()) +
                                   " is not finite; " + file.string() + " was not written");
-    for (int row = 0; row < 3; ++row)
+    }
+    for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column)
         text += runtime::shortest_text(pose(row, column)) + (row == 2 && column == 3 ? '\n' : ' ');
+    }
   }
   write_text(file, text);
 }
@@ -149,6 +157,8 @@ Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,
     const std::size_t frames = std::min(estimate.poses.size(), truth.poses.size());
     matched.estimate.resize(frames);
     matched.truth.resize(frames);
+    matched.frames.resize(frames);
+    std::iota(matched.frames.begin(), matched.frames.end(), std::size_t{0});
   }
   std::size_t j = 0;
   for (std::size_t i = 0; i < estimate.stamps.size() && j < truth.stamps.size(); ++i) {
@@ -159,7 +169,8 @@ Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,
     if (apart(j) > tolerance) continue;
     matched.stamps.push_back(estimate.stamps[i]);
     matched.estimate.push_back(estimate.poses[i]);
-    matched.truth.push_back(truth.poses[j++]);
+    matched.truth.push_back(truth.poses[j]);
+    matched.frames.push_back(j++);
   }
   matched.unmatched_estimate = estimate.poses.size() - matched.estimate.size();
   matched.unmatched_truth = truth.poses.size() - matched.truth.size();

@@ -1,12 +1,14 @@
-// Reads and writes trajectories in common formats: poses of KITTI's odometry benchmark, TUM's, and
-// recorded truth.
+// Reads and writes trajectories in common formats: poses of KITTI's odometry benchmark, TUM's,
+// recorded truth, RTKLIB's positions, and our own logs.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "msgs/local_frame.h"
 #include "msgs/time.h"
 #include "tools/evaluate/text_lines.h"
 
@@ -20,15 +22,26 @@ using Trajectory = std::vector<Eigen::Isometry3d>;
 struct StampedTrajectory {
   std::vector<Time> stamps;
   Trajectory poses;
+  std::optional<Geodetic> origin = {};  // if the fixed frame is east, north, up at a known place
+  bool has_attitude = true;             // else each pose is a position, not turned
 };
+
+enum class Role { estimate, truth };
 
 // Reads a plain or .gz file; the format is recognized from the contents:
 //   KITTI   12 numbers a line, no stamps
 //   TUM     stamp x y z qx qy qz qw, seconds; lines that start with # are skipped
 //   CSV     recorded truth: a heading with the columns t, cam_x ... cam_z, cam_qw ... cam_qz
+//   .pos    RTKLIB's positions, by the file's name: latitude, longitude, height or XYZ, no attitude
+//   log     an LCM log, or the same in an MCAP file or a bag: TRUTH if it is the truth that is
+//           read, else NAV_STATE; of the left camera if there is a CALIBRATION
 // Throws std::runtime_error naming file and line if a line does not have the format, a quaternion
 // does not have length one (to 1e-3), or the stamps do not increase.
-StampedTrajectory read_trajectory(const std::filesystem::path& file);
+StampedTrajectory read_trajectory(const std::filesystem::path& file, Role role = Role::estimate);
+
+// Read one format of those above.
+StampedTrajectory read_rtklib_positions(const std::filesystem::path& file);
+StampedTrajectory read_log_trajectory(const std::filesystem::path& file, Role role);
 
 // Reads KITTI's format: the upper 3x4 of the left camera's pose in row-major order, twelve numbers
 // separated by blanks, one line for each frame. Empty lines are skipped. Throws std::runtime_error
@@ -59,6 +72,7 @@ struct Matched {
   std::vector<Time> stamps;  // the estimate's, or empty
   Trajectory estimate;
   Trajectory truth;
+  std::vector<std::size_t> frames = {};                     // of the truth's poses, in its file
   std::size_t unmatched_estimate = 0, unmatched_truth = 0;  // poses without a partner
 };
 Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,

@@ -113,7 +113,7 @@ def write(database, page):
                       *(None if r[n] is None else float(f"{r[n]:.5g}") for n in shown)] for r in runs]}
     failed = sum(r["status"] != 0 for r in runs)
     text = (HERE / "page.html").read_text()
-    for place, what in (("STYLE", (HERE.parent / "web/src/page.css").read_text()),
+    for place, what in (("STYLE", "".join((HERE.parent / "web/design" / f"{sheet}.css").read_text() for sheet in ("tokens", "base"))),
                         ("SUMMARY", f"{len(runs)} runs of {len({r['recording'] for r in runs})} recordings by the "
                                     f"binary {html.escape(runs[0]['code'])}; {failed} failed."),
                         ("PARTS", "\n".join(parts)),

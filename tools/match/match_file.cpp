@@ -1,6 +1,7 @@
 // Reads matches from a file, for scoring.
 #include <stdexcept>
 
+#include "tools/evaluate/log_messages.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/text_lines.h"
 #include "tools/match/match_score.h"
@@ -8,7 +9,7 @@
 namespace maploop::match {
 
 std::vector<TimedMatch> read_matches(const std::filesystem::path& file) {
-  if (is_lcm_log(file)) return read_log_matches(file);
+  if (evaluation::is_lcm_log(file)) return read_log_matches(file);
   constexpr auto none = evaluation::NamedColumns::none;
   constexpr auto incomplete = "no columns t and way_id; is it a file of 'maploop match --csv'?";
   const std::string text = evaluation::read_text(file);

@@ -137,10 +137,10 @@ void write_match_html(const std::filesystem::path& file, const MatchedTrack& tra
       "<title>maploop match</title>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<style>" +
           std::string(web::match_style()) +
-          "</style></head><body>\n<div id=\"map\"></div>\n<div id=\"panel\">" +
+          "</style></head><body>\n<main id=\"map\"></main>\n<aside id=\"panel\">" +
           (script.empty() ? "No map: this maploop was built without npm."
                           : "This map needs JavaScript.") +
-          "</div>\n<script type=\"application/json\" id=\"match\">" + script_safe(text) +
+          "</aside>\n<script type=\"application/json\" id=\"match\">" + script_safe(text) +
           "</script>\n<script>" + std::string(script) + "</script>\n</body></html>\n");
 }
 

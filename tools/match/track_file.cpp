@@ -7,6 +7,7 @@
 #include <string>
 
 #include "msgs/input_limits.h"
+#include "tools/evaluate/log_messages.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/text_lines.h"
 
@@ -24,7 +25,7 @@ std::string extension_of(std::filesystem::path file) {
 }  // namespace
 
 Track read_track(const std::filesystem::path& file, const TrackOptions& options) {
-  if (is_lcm_log(file)) return read_log_track(file);
+  if (evaluation::is_lcm_log(file)) return read_log_track(file);
   const std::string text = evaluation::read_text(file);
   const std::string name = file.string();
   const std::string extension = extension_of(file);

@@ -45,9 +45,6 @@ Track parse_gpx_track(std::string_view text, std::string_view name, const TrackO
 Track parse_nmea_track(std::string_view text, std::string_view name, const TrackOptions& options);
 Track parse_tum_track(std::string_view text, std::string_view name, const TrackOptions& options);
 
-// Whether a file is an LCM log, by its first bytes (.gz: by its name).
-bool is_lcm_log(const std::filesystem::path& file);
-
 // Reads a log of `maploop replay --record` or lcm-logger: the fused states, ten a second, or the
 // GNSS fixes if there are no states. Throws std::runtime_error if the log is damaged.
 Track read_log_track(const std::filesystem::path& file);

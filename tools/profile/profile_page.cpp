@@ -99,7 +99,7 @@ std::string latency_table(const Profile& p) {
       for (std::string& cell : row) cell = escaped(cell);
       if (l.misses == 0 || p.virtual_time()) continue;
       std::string& cell = row[static_cast<std::size_t>(missed)];
-      cell = "<b class=\"missed\">" + cell + "</b>";
+      cell = fmt::format("<b class=\"missed\">{}</b>", cell);
     }
   }
   return web::table_of_html(heading, rows);
@@ -132,13 +132,13 @@ std::string colour(const std::string& part, Names& names) {
   const auto found = std::find(names.begin(), names.end(), part);
   const auto index = static_cast<std::size_t>(found - names.begin());
   if (found == names.end()) names.push_back(part);
-  return fmt::format("var(--c{})", index % colours);
+  return fmt::format("var(--series-{})", 1 + index % colours);
 }
 
 // The part that nothing else explains is the time that the graph allows.
 std::string miss_bar(const WorstMiss& w, Names& names, double longest) {
   double rest = to_milliseconds(w.miss.latency);
-  std::vector<BarPart> parts{{"var(--grey)", "as the graph allows", 0.0}};
+  std::vector<BarPart> parts{{"var(--line)", "as the graph allows", 0.0}};
   for (const MissedDeadline::Part& part : w.miss.parts) {
     const double ms = std::max(0.0, to_milliseconds(part.lasted));
     rest -= ms;
@@ -157,6 +157,7 @@ std::string miss_bars(std::vector<WorstMiss> worst, Time end) {
   }
   Names names;
   std::vector<web::Row> rows;
+  rows.reserve(worst.size());
   for (const WorstMiss& w : worst) {
     rows.push_back({escaped(w.of), web::figure(to_seconds(end - w.miss.stamp), 2),
                     web::figure(to_milliseconds(w.miss.latency), 1), miss_bar(w, names, longest)});
@@ -195,7 +196,7 @@ void add_processor_time(web::Page& page, const Profile& p) {
   for (const ProcessorTime& t : processor_time(p.health)) {
     rows.push_back(
         {escaped(t.name), web::figure(t.seconds, 3), web::figure(t.percent, 2),
-         bar({{"var(--c0)", t.name, 1e3 * t.seconds}}, 1e3 * std::max(p.health.cpu, 1e-9))});
+         bar({{"var(--series-1)", t.name, 1e3 * t.seconds}}, 1e3 * std::max(p.health.cpu, 1e-9))});
   }
   page.add(web::heading("Processor time") +
            web::table_of_html({"thread", "s", "% of one processor", ""}, rows));

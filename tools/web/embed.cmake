@@ -1,7 +1,7 @@
-# cmake [-DFOLDER=<dist>] -DSOURCES=<src> -DOUTPUT=<bundle.cpp> -P embed.cmake: the bundles as strings of a C++
+# cmake [-DFOLDER=<dist>] -DSOURCES=<web> -DOUTPUT=<bundle.cpp> -P embed.cmake: the bundles as strings of a C++
 # source. Without a folder that npm has made there are no scripts; styles are then as they were written.
 set(source "// Made by tools/web/embed.cmake.\n#include \"tools/web/bundle.h\"\n\nnamespace maploop::web {\n\n")
-foreach(kind page dashboard match)
+foreach(kind page comparison dashboard match)
   foreach(part script:js style:css)
     string(REPLACE ":" ";" part ${part})
     list(GET part 0 name)
@@ -10,7 +10,10 @@ foreach(kind page dashboard match)
     if(FOLDER)
       file(READ ${FOLDER}/${kind}.${ending} text)
     elseif(ending STREQUAL "css")
-      file(READ ${SOURCES}/${kind}.${ending} text)
+      foreach(sheet design/tokens design/base src/${kind})
+        file(READ ${SOURCES}/${sheet}.css more)
+        string(APPEND text "${more}")
+      endforeach()
     endif()
     string(APPEND source "std::string_view ${kind}_${name}() {\n  return R\"maploop(" "${text}" ")maploop\";\n}\n\n")
   endforeach()

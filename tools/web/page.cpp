@@ -14,15 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-// Numbers that are not finite become null in the text of the JSON.
-json with_seven_digits(const std::vector<double>& values) {
-  json list = json::array();
-  for (const double value : values) {
-    list.push_back(std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr));
-  }
-  return list;
-}
-
 json json_of(const Line& line) {
   constexpr std::array looks{"solid", "dashed", "steps", "points"};
   return {{"name", line.name},
@@ -45,7 +36,24 @@ json json_of(const std::vector<Item>& items) {
   return list;
 }
 
+std::string why_without(std::string_view script) {
+  return script.empty() ? "No picture: this maploop was built without npm."
+                        : "This picture needs JavaScript.";
+}
+
+std::string embedded(std::string_view id, const std::string& data) {
+  return "<script type=\"application/json\" id=\"" + std::string(id) + "\">" + data + "</script>\n";
+}
+
 }  // namespace
+
+json with_seven_digits(const std::vector<double>& values) {
+  json list = json::array();
+  for (const double value : values) {
+    list.push_back(std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr));
+  }
+  return list;
+}
 
 std::string script_json(const json& value) {
   std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -69,7 +77,7 @@ std::string to_json(const Plot& plot) {
   return script_json(j);
 }
 
-Page::Page(std::string_view heading) : heading_(escaped(heading)) {}
+Page::Page(std::string_view heading, Script script) : script_(script), heading_(escaped(heading)) {}
 
 Page& Page::add(std::string_view html) {
   body_ += html;
@@ -77,11 +85,10 @@ Page& Page::add(std::string_view html) {
 }
 
 Page& Page::add(const Plot& plot) {
-  const std::string why = page_script().empty() ? "No picture: this maploop was built without npm."
-                                                : "This picture needs JavaScript.";
   body_ += "<figure data-plot=\"" + std::to_string(plot_count_) + "\"" +
            (plot.equal_axes ? " class=\"map\"" : "") + "><figcaption>" + escaped(plot.title) +
-           "</figcaption><div class=\"without\">" + why + "</div></figure>\n";
+           "</figcaption><div class=\"without\">" + why_without(page_script()) +
+           "</div></figure>\n";
   plots_ += (plot_count_++ > 0 ? ",\n" : "") + to_json(plot);
   return *this;
 }
@@ -93,13 +100,21 @@ Page& Page::add(const std::vector<Plot>& plots) {
   return *this;
 }
 
+Page& Page::add_place(std::string_view id, const json& data) {
+  body_ += "<div id=\"" + std::string(id) + "\"><div class=\"without\">" +
+           why_without(comparison_script()) + "</div></div>\n" +
+           embedded(std::string(id) + "-data", script_json(data));
+  return *this;
+}
+
 std::string Page::text() const {
+  const bool plots = script_ == Script::plots;
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         heading_ + "</title>\n<style>" + std::string(page_style()) +
-         "</style></head><body>\n<h1>" + heading_ + "</h1>\n" + body_ +
-         "<script type=\"application/json\" id=\"plots\">[" + plots_ + "]</script>\n<script>" +
-         std::string(page_script()) + "</script>\n</body></html>\n";
+         heading_ + "</title>\n<style>" + std::string(plots ? page_style() : comparison_style()) +
+         "</style></head><body><main>\n<h1>" + heading_ + "</h1>\n" + body_ + "</main>\n" +
+         embedded("plots", '[' + plots_ + ']') + "<script>" +
+         std::string(plots ? page_script() : comparison_script()) + "</script>\n</body></html>\n";
 }
 
 }  // namespace maploop::web

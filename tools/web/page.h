@@ -15,22 +15,31 @@ namespace maploop::web {
 // this.
 class Page {
  public:
+  enum class Script { plots, comparison };  // src/page.ts, src/comparison.ts
+
   // `heading` is plain text.
-  explicit Page(std::string_view heading);
+  explicit Page(std::string_view heading, Script script = Script::plots);
 
   // `html` must already be HTML (tools/web/html.h).
   Page& add(std::string_view html);
   Page& add(const Plot& plot);
   // Adds the pictures side by side if there is room.
   Page& add(const std::vector<Plot>& plots);
+  // Adds an empty element for the script's pictures, which says why there is none, and the data
+  // that they are made of, in an element "ID-data".
+  Page& add_place(std::string_view id, const nlohmann::json& data);
 
   std::string text() const;
 
  private:
+  Script script_;
   std::string heading_, body_;
   std::string plots_;  // JSON, without its brackets
   int plot_count_ = 0;
 };
+
+// Returns a list with seven digits of each number; those that are not finite become null.
+nlohmann::json with_seven_digits(const std::vector<double>& values);
 
 // Returns the plot as JSON, with seven digits of each number.
 std::string to_json(const Plot& plot);

@@ -1,5 +1,7 @@
 #include "tools/web/table.h"
 
+#include <fmt/format.h>
+
 #include "tools/web/html.h"
 
 namespace maploop::web {
@@ -10,10 +12,11 @@ Row escaped_row(Row row) {
   return row;
 }
 
+// A heading without a text is a plain cell.
 void append_row(std::string& html, const Row& row, const char* element) {
   html += "<tr>";
   for (const std::string& cell : row) {
-    html += '<' + std::string(element) + '>' + cell + "</" + element + '>';
+    html += fmt::format("<{0}>{1}</{0}>", cell.empty() ? "td" : element, cell);
   }
   html += "</tr>\n";
 }
@@ -21,7 +24,7 @@ void append_row(std::string& html, const Row& row, const char* element) {
 }  // namespace
 
 std::string table_of_html(const Row& heading, const std::vector<Row>& rows) {
-  std::string html = "<div class=\"wide\"><table>\n";
+  std::string html = "<div class=\"wide\" tabindex=\"0\"><table>\n";
   append_row(html, heading, "th");
   for (const Row& row : rows) append_row(html, row, "td");
   return html + "</table></div>\n";
@@ -29,6 +32,7 @@ std::string table_of_html(const Row& heading, const std::vector<Row>& rows) {
 
 std::string table(const Row& heading, const std::vector<Row>& rows) {
   std::vector<Row> escaped_rows;
+  escaped_rows.reserve(rows.size());
   for (const Row& row : rows) escaped_rows.push_back(escaped_row(row));
   return table_of_html(escaped_row(heading), escaped_rows);
 }

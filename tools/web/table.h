@@ -110,6 +110,7 @@ Row cells(const Columns<Item>& columns, const Item& item) {
 template <class Item>
 std::string table(const Columns<Item>& columns, const std::vector<Item>& items) {
   std::vector<Row> rows;
+  rows.reserve(items.size());
   for (const Item& item : items) rows.push_back(cells(columns, item));
   return table(headings(columns), rows);
 }

@@ -154,5 +154,60 @@ TEST(EvaluateCommand, TrajectoriesWithoutACommonMomentAreRefusedWithTheRemedy) {
   EXPECT_NE(run.error.find("--max-difference"), std::string::npos) << run.error;
 }
 
+TEST(EvaluateCommand, SeveralRunsStandBesideEachOtherAndTheirFiguresAreThoseOfOne) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  const auto truths = testing::real_data() / "kitti/drive_0013_truth";
+  const std::string a = (truths / "time_corrected.txt").string(),
+                    b = (truths / "velocity_integrated.txt").string(), json = path("score.json");
+  ASSERT_EQ(maploop({"evaluate", a, b, "--json", json}).status, 0);
+  const auto alone = nlohmann::json::parse(std::ifstream(json));
+  const ProcessResult both = maploop({"evaluate", a, b, "--truth", b, "--json", json, "--csv",
+                                      path("errors.csv"), "--html", path("page.html")});
+  ASSERT_EQ(both.status, 0) << both.error;
+  EXPECT_NE(both.out.find("A  time_corrected.txt"), std::string::npos) << both.out;
+  const auto scores = nlohmann::json::parse(std::ifstream(json));
+  EXPECT_EQ(scores["align"], "se3");
+  const auto& first = scores["runs"][0];
+  for (const char* part : {"rmse", "mean", "median", "max"})
+    EXPECT_NEAR(first["absolute_m"][part], alone["ape_m"][part], 1e-9) << part;
+  EXPECT_NEAR(first["kitti"]["percent"], alone["kitti"]["percent"], 1e-6);
+  EXPECT_NEAR(first["lengths"][4]["percent"], alone["lengths"][4]["raw"]["percent"], 1e-6);
+  EXPECT_LT(scores["runs"][1]["absolute_m"]["max"], 1e-6) << "the truth itself";
+  EXPECT_EQ(lines_of(path("errors.csv")), 2u * 144u + 1u);
+  const ProcessResult table = maploop({"evaluate", a, b, "--align", "origin", "--table", "csv"});
+  EXPECT_EQ(table.out.rfind("figure,unit,time_corrected.txt\n", 0), 0u) << table.out;
+}
+
+TEST(EvaluateCommand, WhatCannotBeMeantIsRefusedWithTheRemedy) {
+  const ProcessResult three = maploop({"evaluate", "a", "b", "c"});
+  EXPECT_NE(three.status, 0);
+  EXPECT_NE(three.error.find("--truth"), std::string::npos) << three.error;
+  const ProcessResult tum = maploop({"evaluate", "a", "b", "--truth", "c", "--tum", "out.tum"});
+  EXPECT_NE(tum.status, 0);
+  EXPECT_NE(tum.error.find("--tum"), std::string::npos) << tum.error;
+}
+
+// What a run has recorded is compared with what it was told of the truth.
+TEST(EvaluateCommand, ALogIsARunAndATruth) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const std::string log = (folder.path() / "run.mcap").string(),
+                    tum = (folder.path() / "run.tum").string();
+  ASSERT_EQ(maploop({"replay", testing::drive_0013().string(), "--lockstep", "--no-lcm", "--end",
+                     "5", "--record", log, "--tum", tum})
+                .status,
+            0);
+  const std::string json = (folder.path() / "score.json").string();
+  const ProcessResult run =
+      maploop({"evaluate", log, tum, "--truth", log, "--align", "none", "--json", json});
+  ASSERT_EQ(run.status, 0) << run.error;
+  const auto runs = nlohmann::json::parse(std::ifstream(json))["runs"];
+  EXPECT_GT(runs[0]["unmatched"]["estimate"], 100) << "states between the images";
+  EXPECT_NEAR(runs[0]["horizontal_m"]["rmse"], runs[1]["horizontal_m"]["rmse"], 0.5)
+      << "both are of the camera";
+}
+
 }  // namespace
 }  // namespace maploop

@@ -10,6 +10,8 @@ import { after, before, test } from "node:test";
 
 import { chromium } from "playwright-core";
 
+import { assertAccessible } from "./accessible.mjs";
+
 const [maploop, pictures, executablePath] = process.argv.slice(2);
 const drive = join(process.env.MAPLOOP_CACHE, "2011_09_26/2011_09_26_drive_0013_sync");
 const desktop = { width: 1280, height: 860 };
@@ -72,6 +74,7 @@ test("the report draws every picture, on a desk, on a phone and on paper", async
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     assert.ok(overflow <= 0, `${overflow} px beyond the edge of the ${name}`);
     await page.screenshot({ path: join(pictures, `report-${name}.png`), fullPage: true });
+    await assertAccessible(page, `the report on the ${name}`);
     if (name === "desktop") await page.pdf({ path: join(pictures, "report.pdf"), format: "A4" });
     await page.close();
   }
@@ -100,6 +103,7 @@ test("the match page shows roads, fixes and the candidates of a fix, by mouse an
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     assert.ok(overflow <= 0, `${overflow} px beyond the edge of the ${name}`);
     await page.screenshot({ path: join(pictures, `match-${name}.png`) });
+    await assertAccessible(page, `the match page on the ${name}`);
     await page.close();
   }
 });
@@ -138,6 +142,7 @@ test("the dashboard follows a replay, controls it, and survives restarts of eith
   await page.getByRole("button", { name: "Pause", exact: true }).waitFor(patience);
   await page.waitForTimeout(1500);
   await page.screenshot({ path: join(pictures, "dashboard-desktop.png") });
+  await assertAccessible(page, "the dashboard");
 
   await stop(replay);
   await page.getByText("Nothing comes on the bus").waitFor(patience);

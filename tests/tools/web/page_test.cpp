@@ -62,7 +62,7 @@ TEST(Page, NeedsNothingButABrowser) {
   }
   EXPECT_EQ(page_style().find("url("), std::string::npos);
   EXPECT_EQ(page_script().find("</script"), std::string::npos) << "it would end there";
-  EXPECT_NE(page_style().find("prefers-color-scheme"), std::string::npos);
+  EXPECT_NE(page_style().find("light-dark("), std::string::npos);
 }
 
 TEST(Page, EachPictureSaysWhyItIsNotThere) {

@@ -39,7 +39,7 @@ TEST(Table, JsonHasItsKeysWithPaths) {
 
 TEST(Table, HtmlHasItsHeadings) {
   EXPECT_EQ(table(columns, std::vector{good}),
-            "<div class=\"wide\"><table>\n"
+            "<div class=\"wide\" tabindex=\"0\"><table>\n"
             "<tr><th>name</th><th>error, m</th><th>twice</th></tr>\n"
             "<tr><td>a&lt;b</td><td>1.25</td><td>2.5</td></tr>\n"
             "</table></div>\n");

@@ -1,127 +1,114 @@
 // Charts of values against time or way, and of distributions.
-import {
-  Chart,
-  Filler,
-  Legend,
-  LinearScale,
-  LineController,
-  LineElement,
-  LogarithmicScale,
-  PointElement,
-  Tooltip,
-  type ChartDataset,
-  type Plugin,
-} from "chart.js";
+import "uplot/dist/uPlot.min.css";
 
-import { colour, type Line, type Numbers, type Plot } from "./plot";
+import uPlot from "uplot";
 
-Chart.register(LineController, LineElement, PointElement, LinearScale, LogarithmicScale, Legend, Tooltip, Filler);
+import { ink, onColours, tokensOf } from "./palette";
+import type { Line, Numbers, Plot } from "./plot";
 
-const ink = "#808080"; // readable on a light page, on a dark one, and on paper
-const grid = "#80808033";
+type Table = [number[], ...(number | null)[][]];
 
-type Point = { x: number; y: number };
-type Dataset = ChartDataset<"line", Point[]>;
-
-// A point without a value breaks the line.
-function points(x: Numbers, y: Numbers): Point[] {
-  return x.map((at, i) => ({ x: at ?? NaN, y: y[i] ?? NaN }));
+// uPlot wants x to increase: points are sorted, and equal ones moved apart by nothing that is seen.
+function table(x: Numbers, values: Numbers[], log: [boolean, boolean]): Table {
+  const rows: number[] = [];
+  for (let i = 0; i < x.length; ++i) if (x[i] != null && !(log[0] && x[i]! <= 0)) rows.push(i);
+  rows.sort((a, b) => x[a]! - x[b]! || a - b);
+  const span = rows.length > 0 ? x[rows[rows.length - 1]!]! - x[rows[0]!]! : 0;
+  let last = -Infinity;
+  const moved = rows.map((i) => (last = Math.max(x[i]!, last + Math.max(span, 1e-9) * 1e-9)));
+  const shown = (v: number | null | undefined) => (v == null || (log[1] && v <= 0) ? null : v);
+  return [moved, ...values.map((list) => rows.map((i) => shown(list[i])))];
 }
 
-function dataset(line: Line, index: number): Dataset {
+function seriesOf(line: Line, token: string): uPlot.Series {
+  const points = line.look === "points";
   return {
     label: line.name,
-    data: points(line.x, line.y),
-    borderColor: colour(index),
-    backgroundColor: colour(index),
-    borderWidth: line.look === "points" ? 0 : 1.6,
-    borderDash: line.look === "dashed" ? [5, 4] : [],
-    stepped: line.look === "steps" ? "after" : false,
-    pointRadius: line.look === "points" ? 2 : 0,
-    pointHitRadius: 6,
+    stroke: () => ink(token),
+    width: 1.6,
+    dash: line.look === "dashed" ? [6, 4] : undefined,
+    paths: points ? () => null : line.look === "steps" ? uPlot.paths.stepped!({ align: 1 }) : undefined,
+    points: { show: points || line.x.length === 1, size: 4, fill: () => ink(token) },
+    value: (_, v) => (v == null ? "–" : `${Number(v.toPrecision(4))}`),
   };
 }
 
-// Two lines; the second one is filled up to the first, which the legend leaves out.
-function bands(plot: Plot): Dataset[] {
-  return (plot.bands ?? []).flatMap((band, i) => {
-    const fill = `${colour(i)}26`;
-    const edge = { borderColor: fill, borderWidth: 1, pointRadius: 0, pointHitRadius: 0, order: 1 };
-    return [
-      { ...edge, label: "", data: points(band.x, band.low) },
-      { ...edge, label: band.name, data: points(band.x, band.high), backgroundColor: fill, fill: "-1" },
-    ];
-  });
-}
-
-function mark(plot: Plot): Plugin<"line"> {
+function axis(label: string): uPlot.Axis {
   return {
-    id: "mark",
-    afterDatasetsDraw(chart) {
-      if (!plot.x_mark) return;
-      const { ctx, chartArea } = chart;
-      const at = chart.scales["x"]!.getPixelForValue(plot.x_mark.value);
-      if (!(at >= chartArea.left && at <= chartArea.right)) return;
-      ctx.save();
-      ctx.strokeStyle = ctx.fillStyle = ink;
-      ctx.setLineDash([2, 3]);
-      ctx.beginPath();
-      ctx.moveTo(at, chartArea.top);
-      ctx.lineTo(at, chartArea.bottom);
-      ctx.stroke();
-      ctx.textAlign = at > 0.6 * chartArea.right ? "right" : "left";
-      ctx.fillText(plot.x_mark.name, at + (ctx.textAlign === "right" ? -4 : 4), chartArea.top + 10);
-      ctx.restore();
-    },
+    label,
+    labelSize: 22,
+    labelFont: "12px system-ui",
+    font: "12px system-ui",
+    stroke: () => ink("soft"),
+    grid: { stroke: () => ink("line"), width: 1 },
+    ticks: { stroke: () => ink("line"), width: 1 },
+    values: (_, ticks) => ticks.map((v) => (v == null ? "" : `${Number(v.toPrecision(6))}`)),
   };
 }
 
-// 1, 2 and 5 of each decade.
-function logarithmicTick(value: number | string): string {
-  const v = Number(value);
-  const digit = v / 10 ** Math.floor(Math.log10(v) + 1e-9);
-  return [1, 2, 5].some((d) => Math.abs(digit - d) < 1e-6) ? `${Number(v.toPrecision(3))}` : "";
+// 1, 2 and 5 of each decade, or 1 if there are many.
+const logarithmic: uPlot.Axis["filter"] = (_, ticks) => {
+  const digits = ticks[ticks.length - 1]! / ticks[0]! > 300 ? [1] : [1, 2, 5];
+  return ticks.map((v) => (digits.includes(Math.round(v / 10 ** Math.floor(Math.log10(v) + 1e-9))) ? v : null));
+};
+
+function drawMark(chart: uPlot, mark: NonNullable<Plot["x_mark"]>): void {
+  const { ctx, bbox } = chart;
+  const at = chart.valToPos(mark.value, "x", true);
+  if (!(at >= bbox.left && at <= bbox.left + bbox.width)) return;
+  ctx.save();
+  ctx.strokeStyle = ctx.fillStyle = ink("warning");
+  ctx.setLineDash([4, 5]);
+  ctx.beginPath();
+  ctx.moveTo(at, bbox.top);
+  ctx.lineTo(at, bbox.top + bbox.height);
+  ctx.stroke();
+  ctx.font = `${12 * uPlot.pxRatio}px system-ui`;
+  ctx.textAlign = at > bbox.left + 0.6 * bbox.width ? "right" : "left";
+  ctx.fillText(mark.name, at + (ctx.textAlign === "right" ? -4 : 4), bbox.top + 12 * uPlot.pxRatio);
+  ctx.restore();
 }
 
-export function drawChart(figure: HTMLElement, plot: Plot): void {
+// Draws a chart that is as wide as the figure. `more` adds to uPlot's options.
+export function drawChart(figure: HTMLElement, plot: Plot, more: Partial<uPlot.Options> = {}): uPlot {
   const frame = figure.appendChild(document.createElement("div"));
   frame.className = "chart";
-  const canvas = frame.appendChild(document.createElement("canvas"));
-  canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", plot.title);
-  const axis = (label: string, log?: boolean) => ({
-    type: log ? ("logarithmic" as const) : ("linear" as const),
-    title: { display: true, text: label, color: ink },
-    ticks: { color: ink, maxRotation: 0, ...(log ? { callback: logarithmicTick } : {}) },
-    grid: { color: grid },
-    border: { color: ink },
+  frame.setAttribute("role", "group");
+  frame.setAttribute("aria-label", plot.title);
+  const log: [boolean, boolean] = [!!plot.x_log, !!plot.y_log];
+  const tokens = plot.lines.map((line) => line.token);
+  const guessed = tokensOf(plot.lines.map((line) => line.name));
+  const tokenOf = (i: number) => tokens[i] ?? guessed[i] ?? "soft";
+  const bands = plot.bands ?? [];
+  const edges = bands.flatMap((band, i): uPlot.Series[] => {
+    const edge = { stroke: () => `rgb(from ${ink(tokenOf(i))} r g b / 0.3)`, width: 1, points: { show: false } };
+    return [{ ...edge, label: `${band.name}, low`, class: "unnamed" }, { ...edge, label: band.name }];
   });
-  const first = bands(plot);
-  new Chart(canvas, {
-    type: "line",
-    data: { datasets: [...first, ...plot.lines.map((line, i) => dataset(line, i))] },
-    options: {
-      animation: false,
-      maintainAspectRatio: false,
-      parsing: false,
-      interaction: { mode: "nearest", axis: "x", intersect: false },
-      scales: { x: axis(plot.x_label, plot.x_log), y: axis(plot.y_label, plot.y_log) },
-      plugins: {
-        legend: {
-          labels: { color: ink, boxHeight: 1, boxWidth: 22, filter: (item) => item.text !== "" },
-        },
-        tooltip: {
-          filter: (item) => item.dataset.label !== "" && !first.includes(item.dataset as Dataset),
-          callbacks: {
-            title: (items) => `${Number(items[0]?.parsed.x).toPrecision(5)}  ${plot.x_label}`,
-            label: (item) => `${item.dataset.label}: ${Number(item.parsed.y).toPrecision(4)}`,
-          },
-        },
-      },
-    },
-    plugins: [mark(plot)],
-  });
+  const tables = [
+    ...bands.map((band) => table(band.x, [band.low, band.high], log)),
+    ...plot.lines.map((line) => table(line.x, [line.y], log)),
+  ];
+  const size = () => ({ width: Math.max(figure.clientWidth, 200), height: 280 });
+  const axes = [axis(plot.x_label), { ...axis(plot.y_label), size: 56 }];
+  if (log[0]) axes[0]!.filter = logarithmic;
+  if (log[1]) axes[1]!.filter = logarithmic;
+  const options: uPlot.Options = {
+    ...size(),
+    series: [{ label: plot.x_label, value: (_, v) => (v == null ? "–" : `${Number(v.toPrecision(6))}`) }, ...edges,
+      ...plot.lines.map((line, i) => seriesOf(line, tokenOf(i)))],
+    bands: bands.map((_, i) => ({
+      series: [2 * i + 2, 2 * i + 1],
+      fill: () => `rgb(from ${ink(tokenOf(i))} r g b / 0.15)`,
+    })),
+    axes,
+    scales: { x: { time: false, distr: log[0] ? 3 : 1 }, y: { distr: log[1] ? 3 : 1 } },
+    legend: { markers: { width: 0, fill: (_, i) => `var(--${tokenOf(i > edges.length ? i - 1 - edges.length : (i - 1) >> 1)})` } },
+    plugins: plot.x_mark ? [{ hooks: { draw: (chart) => drawMark(chart, plot.x_mark!) } }] : [],
+    ...more,
+  };
+  const data = tables.length > 0 ? uPlot.join(tables as uPlot.AlignedData[]) : ([[]] as unknown as uPlot.AlignedData);
+  const chart = new uPlot(options, data, frame);
+  new ResizeObserver(() => chart.setSize(size())).observe(figure);
+  onColours(() => chart.redraw(false));
+  return chart;
 }
-
-// Paper is narrower than a screen.
-window.addEventListener("beforeprint", () => Object.values(Chart.instances).forEach((c) => c.resize()));

@@ -1,9 +1,12 @@
 // A running vehicle: its way, its state, how well it keeps its time.
+import "../design/tokens.css";
+import "../design/base.css";
 import "./dashboard.css";
 
-import { element } from "./dom";
+import { button, element } from "./dom";
 import { listen, trail, type Run, type Verdict } from "./live";
 import { LiveMap } from "./live_map";
+import { themeSwitch } from "./palette";
 import { showAids, showDeadlines, showHealth, showPpp, showRoad, showState } from "./panels";
 import { PlayerBar } from "./player";
 import { Views } from "./views";
@@ -15,9 +18,12 @@ const left = element("div", main, "", "left");
 const place = element("section", left, "", "place");
 const canvas = element("canvas", place) as HTMLCanvasElement;
 const legend = element("div", place, "", "legend");
-for (const name of ["truth", "fused", "fixes", "matched"]) element("span", legend, name, name);
+for (const [name, token] of [["truth", "truth"], ["fused", "fused"], ["fixes", "gnss"], ["matched", "matched"]] as const)
+  element("span", legend, name).style.setProperty("--key", `var(--${token})`);
 const views = new Views(element("section", left, "", "views"));
 const side = element("aside", main);
+side.tabIndex = 0; // so that keys can scroll it
+element("h1", side, "maploop", "unseen");
 const notice = element("div", side, "Connecting…", "notice");
 
 const ended = element("section", side, "", "verdict");
@@ -40,17 +46,11 @@ const health = panel("Health");
 const player = new PlayerBar(element("footer", document.body));
 
 const buttons = element("div", place, "", "buttons");
-function button(text: string, title: string, act: () => void): HTMLElement {
-  const b = element("button", buttons, text);
-  b.title = title;
-  b.addEventListener("click", act);
-  return b;
-}
-const follow = button("◎", "Follow the vehicle", () => setFollow(true));
+const follow = button(buttons, "◎", "Follow the vehicle", () => setFollow(true));
 const map = new LiveMap(canvas, () => setFollow(false));
-button("+", "Nearer", () => map.zoom(1.5));
-button("−", "Farther", () => map.zoom(1 / 1.5));
-button("⤢", "Show all", () => {
+button(buttons, "+", "Nearer", () => map.zoom(1.5));
+button(buttons, "−", "Farther", () => map.zoom(1 / 1.5));
+button(buttons, "⤢", "Show all", () => {
   setFollow(false);
   map.fit();
 });
@@ -60,6 +60,7 @@ function setFollow(yes: boolean): void {
   follow.classList.toggle("on", yes);
 }
 setFollow(true);
+themeSwitch(place);
 
 let heardAt = -Infinity;
 let isConnected = false;

@@ -7,11 +7,20 @@ export function element(tag: string, parent: HTMLElement, text = "", className =
   return e;
 }
 
+export function button(parent: HTMLElement, text: string, title: string, act: () => void): HTMLButtonElement {
+  const b = element("button", parent, text) as HTMLButtonElement;
+  b.type = "button";
+  b.title = title;
+  if (!/\w/.test(text)) b.setAttribute("aria-label", title);
+  b.addEventListener("click", act);
+  return b;
+}
+
 export function table(parent: HTMLElement, heading: string[], rows: (string | HTMLElement)[][]): void {
   const body = document.createElement("table");
   if (heading.length > 0) {
     const row = element("tr", body);
-    for (const text of heading) element("th", row, text);
+    for (const text of heading) element(text ? "th" : "td", row, text);
   }
   for (const cells of rows) {
     const row = element("tr", body);

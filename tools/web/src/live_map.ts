@@ -2,7 +2,8 @@
 import { eastNorth, type Geodetic } from "./geodesy";
 import { roads, type Fix, type MapMatch, type NavState, type Pose, type Trail } from "./live";
 import { MapView } from "./map";
-import { colour, type Line } from "./plot";
+import { ink } from "./palette";
+import type { Line } from "./plot";
 
 const most = 20000; // points of a line
 
@@ -128,7 +129,7 @@ export class LiveMap {
   }
 
   private drawVehicle(map: MapView, context: CanvasRenderingContext2D): void {
-    context.fillStyle = "#eda100";
+    context.fillStyle = ink("gnss");
     this.fixes.line.x.forEach((east, i) => {
       context.beginPath();
       context.arc(map.x(east!), map.y(this.fixes.line.y[i]!), 3, 0, 2 * Math.PI);
@@ -142,8 +143,8 @@ export class LiveMap {
     context.save();
     context.translate(x, y);
     context.rotate(this.state.azimuth);
-    context.fillStyle = colour(1);
-    context.strokeStyle = "#fff";
+    context.fillStyle = ink("fused");
+    context.strokeStyle = ink("surface");
     context.lineWidth = 1.5;
     context.beginPath();
     context.moveTo(0, -12);
@@ -160,7 +161,7 @@ export class LiveMap {
   private drawMatch(map: MapView, context: CanvasRenderingContext2D, match: MapMatch): void {
     const x = map.x(match.matched_enu[0]!);
     const y = map.y(match.matched_enu[1]!);
-    context.strokeStyle = context.fillStyle = colour(2);
+    context.strokeStyle = context.fillStyle = ink("matched");
     context.lineWidth = 1.5;
     context.beginPath();
     context.moveTo(x, y);
@@ -177,8 +178,8 @@ export class LiveMap {
     const middle = (a + c) / 2;
     const half = Math.hypot((a - c) / 2, b);
     const axis = (variance: number) => map.metres(3 * Math.sqrt(Math.max(variance, 0)));
-    context.fillStyle = `${colour(1)}22`;
-    context.strokeStyle = colour(1);
+    context.fillStyle = `rgb(from ${ink("fused")} r g b / 0.13)`;
+    context.strokeStyle = ink("fused");
     context.lineWidth = 1;
     context.beginPath();
     // The screen's y points down.

@@ -1,6 +1,7 @@
 // A map in metres, east to the right: roads, lines and what else is drawn on it. Drag to move, pinch or turn
 // the wheel to zoom.
-import { colour, type Line, type Numbers } from "./plot";
+import { ink, onColours, tokensOf } from "./palette";
+import type { Line, Numbers } from "./plot";
 
 export type Draw = (map: MapView, context: CanvasRenderingContext2D) => void;
 
@@ -37,6 +38,7 @@ export class MapView {
       canvas.addEventListener(end, (e) => this.fingers.delete(e.pointerId));
     }
     new ResizeObserver(() => this.draw()).observe(canvas);
+    onColours(() => this.redraw());
   }
 
   x(east: number): number {
@@ -103,17 +105,20 @@ export class MapView {
     context.clearRect(0, 0, width, height);
     context.lineJoin = context.lineCap = "round";
     const road = Math.min(Math.max(this.metres(7), 2), 14);
-    for (const [paint, grow] of [["#80808066", 2], ["#b9b6ae55", 0]] as const) {
-      context.strokeStyle = paint;
+    for (const [token, grow] of [["road-edge", 2], ["road", 0]] as const) {
+      context.strokeStyle = ink(token);
       context.lineWidth = road + grow;
       for (const line of this.roads) this.stroke(line.x, line.y);
     }
+    const tokens = tokensOf(this.lines.map((line) => line.name));
     this.lines.forEach((line, i) => {
-      context.strokeStyle = context.fillStyle = colour(i);
+      context.strokeStyle = context.fillStyle = ink(line.token ?? tokens[i]!);
       if (line.look === "points") return this.dots(line.x, line.y);
       context.setLineDash(line.look === "dashed" ? [6, 5] : []);
-      context.lineWidth = 2;
+      context.lineWidth = line.width ?? 2;
+      context.globalAlpha = line.opacity ?? 1;
       this.stroke(line.x, line.y);
+      context.globalAlpha = 1;
     });
     context.setLineDash([]);
     this.extra(this, context);
@@ -155,7 +160,7 @@ export class MapView {
     const power = 10 ** Math.floor(Math.log10(rough));
     const length = power * (rough / power >= 5 ? 5 : rough / power >= 2 ? 2 : 1);
     const [x, y] = [12, canvas.clientHeight - 12];
-    context.strokeStyle = context.fillStyle = "#808080";
+    context.strokeStyle = context.fillStyle = ink("soft");
     context.lineWidth = 2;
     context.beginPath();
     context.moveTo(x, y - 5);

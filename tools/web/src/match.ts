@@ -1,10 +1,13 @@
 // The page of `maploop match --html`: roads, fixes and, of the chosen fix, the candidates with their rules.
 import "leaflet/dist/leaflet.css";
+import "../design/tokens.css";
+import "../design/base.css";
 import "./match.css";
 
 import L from "leaflet";
 
-import { element } from "./dom";
+import { button, element } from "./dom";
+import { ink, onColours, themeSwitch } from "./palette";
 
 type Place = [number, number]; // m east and north
 
@@ -39,13 +42,13 @@ interface Data {
   texts: string[];
 }
 
-const colours = { sure: "#1a9850", doubtful: "#e08a00", poor: "#d73027", none: "#7a5cc7", candidate: "#1e6edc" };
+const tokens = { sure: "good", doubtful: "warning", poor: "error", none: "gnss", candidate: "fused" };
 
 const at = ([east, north]: Place): L.LatLngTuple => [north, east];
 
-function colourOf(fix: Fix): string {
-  if (fix.p === undefined) return colours.none;
-  return fix.p > 0.9 ? colours.sure : fix.p > 0.6 ? colours.doubtful : colours.poor;
+function tokenOf(fix: Fix): string {
+  if (fix.p === undefined) return tokens.none;
+  return fix.p > 0.9 ? tokens.sure : fix.p > 0.6 ? tokens.doubtful : tokens.poor;
 }
 
 function widthOf(road: Road): number {
@@ -56,6 +59,7 @@ class MatchPage {
   private readonly map: L.Map;
   private readonly markers: L.CircleMarker[] = [];
   private readonly shown = L.layerGroup();
+  private readonly layers: [L.Path, string][] = []; // and their tokens
   private chosen = -1;
 
   constructor(
@@ -78,6 +82,7 @@ class MatchPage {
     this.drawRoads();
     this.shown.addTo(this.map);
     this.drawFixes();
+    onColours(() => this.repaint());
     document.addEventListener("keydown", (e) => {
       if (e.key === "ArrowRight") this.step(1);
       if (e.key === "ArrowLeft") this.step(-1);
@@ -99,18 +104,26 @@ class MatchPage {
 
   private drawRoads(): void {
     const roads = Object.values(this.data.roads);
-    const draw = (colour: string, grow: number, named: boolean): void => {
+    const draw = (token: string, grow: number, named: boolean): void => {
       for (const road of roads) {
-        const line = L.polyline(road.shape.map(at), {
-          color: colour,
-          weight: widthOf(road) + grow,
-          interactive: named,
-        }).addTo(this.map);
+        const style = { weight: widthOf(road) + grow, interactive: named };
+        const line = this.painted(L.polyline(road.shape.map(at), style), token);
         if (named) line.bindTooltip(() => this.plain(road.name), { sticky: true });
       }
     };
-    draw("#a9a69e", 1.6, false);
-    draw("#ffffff", 0, true);
+    draw("road-edge", 1.6, false);
+    draw("road", 0, true);
+  }
+
+  // Adds what is drawn in the colour of a token, also after the colours have changed.
+  private painted<Layer extends L.Path>(layer: Layer, token: string): Layer {
+    this.layers.push([layer, token]);
+    return layer.setStyle({ color: ink(token), fillColor: ink(token) }).addTo(this.map);
+  }
+
+  private repaint(): void {
+    for (const [layer, token] of this.layers) layer.setStyle({ color: ink(token), fillColor: ink(token) });
+    if (this.chosen >= 0) this.choose(this.chosen);
   }
 
   private plain(text: string): HTMLElement {
@@ -121,14 +134,9 @@ class MatchPage {
 
   private drawFixes(): void {
     for (const fix of this.data.fixes)
-      if (fix.matched) L.polyline([at(fix.place), at(fix.matched)], { color: "#777", weight: 1, interactive: false }).addTo(this.map);
+      if (fix.matched) this.painted(L.polyline([at(fix.place), at(fix.matched)], { weight: 1, interactive: false }), "soft");
     this.data.fixes.forEach((fix, i) => {
-      const marker = L.circleMarker(at(fix.place), {
-        radius: 3.5,
-        stroke: false,
-        fillColor: colourOf(fix),
-        fillOpacity: 1,
-      }).addTo(this.map);
+      const marker = this.painted(L.circleMarker(at(fix.place), { radius: 3.5, stroke: false, fillOpacity: 1 }), tokenOf(fix));
       marker.on("click", () => this.choose(i));
       this.markers.push(marker);
     });
@@ -143,14 +151,14 @@ class MatchPage {
       const road = this.data.roads[c.link];
       if (!road) continue;
       L.polyline(road.shape.map(at), {
-        color: colours.candidate,
+        color: ink(tokens.candidate),
         weight: 5,
         opacity: 0.2 + 0.7 * c.p,
         interactive: false,
       }).addTo(this.shown);
-      L.circleMarker(at(c.at), { radius: 3, color: colours.candidate, weight: 2, interactive: false }).addTo(this.shown);
+      L.circleMarker(at(c.at), { radius: 3, color: ink(tokens.candidate), weight: 2, interactive: false }).addTo(this.shown);
     }
-    this.markers[i]!.setRadius(8).setStyle({ stroke: true, color: "#111", weight: 2 }).bringToFront();
+    this.markers[i]!.setRadius(8).setStyle({ stroke: true, color: ink("ink"), weight: 2 }).bringToFront();
     this.describe(fix);
   }
 
@@ -178,13 +186,13 @@ class MatchPage {
 
 function legend(parent: HTMLElement): void {
   const keys: [string, string][] = [
-    ["P > 0.9", colours.sure],
-    ["> 0.6", colours.doubtful],
-    ["less", colours.poor],
-    ["on no road", colours.none],
-    ["candidates", colours.candidate],
+    ["P > 0.9", tokens.sure],
+    ["> 0.6", tokens.doubtful],
+    ["less", tokens.poor],
+    ["on no road", tokens.none],
+    ["candidates", tokens.candidate],
   ];
-  for (const [text, colour] of keys) element("span", parent, text).style.setProperty("--key", colour);
+  for (const [text, token] of keys) element("span", parent, text).style.setProperty("--key", `var(--${token})`);
 }
 
 const text = document.getElementById("match")?.textContent;
@@ -195,8 +203,10 @@ if (text) {
   legend(element("div", panel, "", "legend"));
   const steps = element("div", panel, "", "steps");
   const details = element("div", panel, "", "details");
+  details.tabIndex = 0; // so that keys can scroll it
   element("p", details, "Click a fix: its candidates, their probability P, the likelihood L of the rules, and the rules that applied.");
   const page = new MatchPage(JSON.parse(text) as Data, document.getElementById("map")!, details);
   for (const [name, by] of [["‹ before", -1], ["next ›", 1]] as const)
-    element("button", steps, name).addEventListener("click", () => page.step(by));
+    button(steps, name, by < 0 ? "The fix before" : "The next fix", () => page.step(by));
+  themeSwitch(panel);
 }

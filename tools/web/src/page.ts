@@ -1,25 +1,22 @@
 // Draws the plots of a written page: each figure with data-plot, from the list in the page's own JSON.
+import "../design/tokens.css";
+import "../design/base.css";
 import "./page.css";
 
 import { drawChart } from "./chart";
+import { button } from "./dom";
 import { MapView } from "./map";
-import { colour, type Plot } from "./plot";
-
-function button(parent: HTMLElement, text: string, title: string, act: () => void): void {
-  const b = parent.appendChild(document.createElement("button"));
-  b.type = "button";
-  b.textContent = text;
-  b.title = title;
-  b.addEventListener("click", act);
-}
+import { themeSwitch, tokensOf } from "./palette";
+import type { Plot } from "./plot";
 
 function drawMap(figure: HTMLElement, plot: Plot): void {
   const legend = figure.appendChild(document.createElement("div"));
   legend.className = "legend";
+  const tokens = tokensOf(plot.lines.map((line) => line.name));
   plot.lines.forEach((line, i) => {
     const key = legend.appendChild(document.createElement("span"));
     key.textContent = line.name;
-    key.style.setProperty("--key", colour(i));
+    key.style.setProperty("--key", `var(--${tokens[i]})`);
   });
   const canvas = figure.appendChild(document.createElement("canvas"));
   canvas.className = "map";
@@ -49,3 +46,4 @@ for (const figure of document.querySelectorAll<HTMLElement>("figure[data-plot]")
     drawChart(figure, plot);
   }
 }
+themeSwitch(document.body);

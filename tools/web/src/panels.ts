@@ -10,7 +10,7 @@ import {
   type NavState,
   type PppState,
 } from "./live";
-import { stateColours } from "./views";
+import { stateTokens } from "./views";
 
 const statuses = ["waiting for a first fix", "aided", "coasting", "position only, no course yet"];
 
@@ -74,7 +74,7 @@ export function showPpp(panel: HTMLElement, p: PppState): void {
       const state = satelliteState(s);
       const dot = document.createElement("span");
       dot.textContent = `● ${s.name}`;
-      dot.style.color = stateColours[state];
+      dot.className = stateTokens[state];
       return [dot, `${degrees(s.elevation).toFixed(0)}°`, s.cn0.toFixed(0), refusals[s.refusal] || state];
     });
   const list = document.createElement("div");
@@ -115,7 +115,7 @@ export function showDeadlines(panel: HTMLElement, d: Deadlines): void {
   const rows = [...d.threads, ...d.paths].map((l) => {
     const misses = document.createElement("span");
     misses.textContent = `${l.misses} of ${l.count}`;
-    misses.className = l.misses > 0 ? "bad" : "";
+    misses.className = l.misses > 0 ? "error" : "";
     if (l.guilty !== "") misses.title = `the worst: ${l.guilty}`;
     return [l.name, strip(l), ms(l.p99_us), misses];
   });
@@ -130,6 +130,6 @@ export function showHealth(panel: HTMLElement, h: Health): void {
   table(panel, ["thread", "rate", "scheduling"], rows);
   element("p", panel, `${cpu} % of one processor; ${lost} samples lost in rings, ${unsent} messages unsent`);
   const list = element("ul", panel);
-  for (const sentence of h.degraded) element("li", list, sentence, "bad");
+  for (const sentence of h.degraded) element("li", list, sentence, "error");
   for (const r of h.refusals) element("li", list, `${r.stage} did not use ${r.count}: ${r.reason}`);
 }

@@ -1,5 +1,5 @@
 // Controls of a replay; hidden as long as nobody plays one.
-import { element } from "./dom";
+import { button, element } from "./dom";
 import { command, type Player, type Run } from "./live";
 
 export class PlayerBar {
@@ -17,18 +17,18 @@ export class PlayerBar {
   constructor(private readonly bar: HTMLElement) {
     bar.hidden = true;
     this.choice = element("select", bar) as HTMLSelectElement;
-    this.choice.title = "The replay that is controlled";
+    this.choice.title = this.choice.ariaLabel = "The replay that is controlled";
     this.choice.addEventListener("change", () => {
       this.run = this.choice.value;
       this.show(this.runs);
     });
-    this.play = this.button("Pause", "Pause, or go on (space bar)", () => this.toggle());
-    this.button("Step", "To the next image (.)", () => this.send("step-image"));
+    this.play = button(bar, "Pause", "Pause, or go on (space bar)", () => this.toggle());
+    button(bar, "Step", "To the next image (.)", () => this.send("step-image"));
     this.slider = element("input", bar) as HTMLInputElement;
     this.slider.type = "range";
     this.slider.step = "0.1";
     this.slider.min = "0";
-    this.slider.title = "Seek";
+    this.slider.title = this.slider.ariaLabel = "Seek";
     this.slider.addEventListener("input", () => (this.dragging = true));
     this.slider.addEventListener("change", () => {
       this.dragging = false;
@@ -36,14 +36,14 @@ export class PlayerBar {
     });
     this.clock = element("span", bar, "", "clock");
     this.speed = element("select", bar) as HTMLSelectElement;
-    this.speed.title = "Times real time";
+    this.speed.title = this.speed.ariaLabel = "Times real time";
     for (const times of [0.1, 0.25, 0.5, 1, 2, 4]) {
       const option = element("option", this.speed, `${times}×`) as HTMLOptionElement;
       option.value = `${times}`;
     }
     this.speed.addEventListener("change", () => this.send("speed", Number(this.speed.value)));
-    this.button("Next miss", "Play to the next missed deadline (n)", () => this.send("next-miss"));
-    this.said = element("span", bar, "", "bad");
+    button(bar, "Next miss", "Play to the next missed deadline (n)", () => this.send("next-miss"));
+    this.said = element("span", bar, "", "error");
     document.addEventListener("keydown", (e) => this.pressed(e));
   }
 
@@ -92,13 +92,5 @@ export class PlayerBar {
     else if (e.key === "n") this.send("next-miss");
     else return;
     e.preventDefault();
-  }
-
-  private button(text: string, title: string, act: () => void): HTMLButtonElement {
-    const b = element("button", this.bar, text) as HTMLButtonElement;
-    b.type = "button";
-    b.title = title;
-    b.addEventListener("click", act);
-    return b;
   }
 }

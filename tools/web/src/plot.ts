@@ -6,7 +6,10 @@ export interface Line {
   name: string;
   x: Numbers;
   y: Numbers;
-  look?: "dashed" | "steps" | "points";
+  look?: "solid" | "dashed" | "steps" | "points";
+  token?: string; // of its colour (palette.ts)
+  width?: number; // px, on a map
+  opacity?: number; // on a map
 }
 
 export interface Band {
@@ -27,11 +30,4 @@ export interface Plot {
   x_log?: boolean;
   y_log?: boolean;
   x_mark?: { value: number; name: string };
-}
-
-// Told apart by people who do not see all colours, on white and on black.
-const colours = ["#2a78d6", "#e34948", "#1baf7a", "#eda100", "#8a5cd0", "#17a2b8", "#e87ba4", "#8c6d31"];
-
-export function colour(index: number): string {
-  return colours[index % colours.length]!;
 }

@@ -2,9 +2,9 @@
 // the sky of its GNSS receiver.
 import { element } from "./dom";
 import { refusals, satelliteState, type PppState, type Preview } from "./live";
+import { ink } from "./palette";
 
-const grey = "#808080";
-export const stateColours = { used: "#1baf7a", partly: "#eda100", refused: "#e34948" } as const;
+export const stateTokens = { used: "good", partly: "warning", refused: "error" } as const;
 
 // A picture with its caption, there from the first time that it is drawn.
 class View {
@@ -67,7 +67,7 @@ export class Views {
   private drawCamera(p: Preview, image: HTMLImageElement): void {
     const context = this.camera.begin(p.width, p.height, `Camera, ${p.track_count} features followed`);
     context.drawImage(image, 0, 0);
-    context.strokeStyle = context.fillStyle = "#35d07f";
+    context.strokeStyle = context.fillStyle = ink("feature");
     context.lineWidth = 1.2;
     p.track_u.forEach((u, i) => {
       const v = p.track_v[i]!;
@@ -79,12 +79,12 @@ export class Views {
     });
   }
 
-  // Forward is up; lighter is higher.
+  // Forward is up; what stands out more is higher.
   private drawScan(p: Preview): void {
     const [size, reach] = [480, 40]; // px, m
     const context = this.scan.begin(size, size, "Scan from above, rings of 10 m");
     const scale = size / 2 / reach;
-    context.strokeStyle = `${grey}55`;
+    context.strokeStyle = ink("line");
     for (let r = 10; r <= reach; r += 10) {
       context.beginPath();
       context.arc(size / 2, size / 2, r * scale, 0, 2 * Math.PI);
@@ -94,10 +94,10 @@ export class Views {
       const x = size / 2 - 0.01 * p.point_y[i]! * scale;
       const y = size / 2 - 0.01 * p.point_x[i]! * scale;
       const height = Math.min(Math.max((0.01 * p.point_z[i]! + 1.5) / 4, 0), 1);
-      context.fillStyle = `hsl(${220 - 190 * height} 75% ${42 + 12 * height}%)`;
+      context.fillStyle = ink(`ramp-${1 + Math.round(4 * height)}`);
       context.fillRect(x - 1, y - 1, 2, 2);
     }
-    context.fillStyle = "#e34948";
+    context.fillStyle = ink("fused");
     context.fillRect(size / 2 - 0.9 * scale, size / 2 - 2.2 * scale, 1.8 * scale, 4.4 * scale);
   }
 
@@ -107,8 +107,8 @@ export class Views {
     const radius = size / 2 - 26;
     const used = p.satellites.filter((s) => satelliteState(s) === "used").length;
     const context = this.sky.begin(size, size, `Sky: ${used} of ${p.satellites.length} satellites used in full`);
-    context.strokeStyle = `${grey}88`;
-    context.fillStyle = grey;
+    context.strokeStyle = ink("line");
+    context.fillStyle = ink("soft");
     context.font = "20px system-ui, sans-serif";
     context.textAlign = "center";
     for (const share of [1, 2 / 3, 1 / 3]) {
@@ -121,7 +121,7 @@ export class Views {
       if (s.azimuth === 0 && s.elevation === 0) continue; // no ephemeris
       const r = radius * (1 - Math.max(s.elevation, 0) / (Math.PI / 2));
       const [x, y] = [size / 2 + r * Math.sin(s.azimuth), size / 2 - r * Math.cos(s.azimuth)];
-      context.fillStyle = stateColours[satelliteState(s)];
+      context.fillStyle = ink(stateTokens[satelliteState(s)]);
       context.beginPath();
       context.arc(x, y, 4 + Math.max(0, s.cn0 - 25) / 5, 0, 2 * Math.PI);
       context.fill();
