@@ -8,17 +8,12 @@
 #include "msgs/lcm/channel_names.h"
 #include "msgs/nav_state.h"
 #include "msgs/reference.h"
+#include "msgs/vehicle_description.h"
 #include "tools/evaluate/log_messages.h"
 #include "tools/evaluate/trajectory_file.h"
 
 namespace maploop::evaluation {
 namespace {
-
-Eigen::Isometry3d camera_of_no_vehicle() {
-  Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
-  T_body_cam.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
-  return T_body_cam;
-}
 
 struct Place {
   Time stamp;
@@ -48,7 +43,7 @@ StampedTrajectory read_log_trajectory(const std::filesystem::path& file, Role ro
   const std::string_view channel = role == Role::truth ? names::truth : names::nav_state;
   std::vector<Place> places;
   std::optional<Geodetic> origin;  // of the run's own frame, in which its --tum is
-  Eigen::Isometry3d T_body_cam = camera_of_no_vehicle();
+  Eigen::Isometry3d T_body_cam = camera_pose({}, {});
   visit_log(file, [&](const lcm_log::LogEvent& event) {
     if (event.channel == names::calibration) {
       const auto calibration = decoded<maploop_lcm::calibration_t>(event, file);
