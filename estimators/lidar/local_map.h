@@ -36,8 +36,8 @@ class LocalMap {
   std::size_t size() const { return points_; }
   std::vector<SurfacePoint> points() const;
 
-  // Adds points that are at least map_spacing from those in their voxel, up to ten per voxel.
-  // Returns how many points found no free voxel.
+  // Adds points that have a normal and are at least map_spacing from those in their voxel, up to
+  // ten per voxel. Returns how many points found no free voxel.
   int insert(const PreparedScan& scan, const Eigen::Isometry3d& T_map_body);
   // Removes voxels further than map_radius from `position`.
   void forget(const Eigen::Vector3d& position);

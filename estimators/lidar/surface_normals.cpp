@@ -51,6 +51,17 @@ struct Neighbourhood {
 constexpr std::array<std::array<int, 3>, 7> self_and_faces{
     {{0, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
+// Returns zero if the points are those of one beam or of one line. `spread` (m) is their extent
+// across the beams.
+Vector3f normal_of(const Neighbourhood& around, float spread, float min_spread) {
+  if (!(spread > min_spread)) return Vector3f::Zero();
+  Eigen::SelfAdjointEigenSolver<Matrix3f> solver;
+  solver.computeDirect(around.covariance());
+  constexpr float line = 1e-3f;  // middle to largest eigenvalue
+  if (!(solver.eigenvalues()[1] > line * solver.eigenvalues()[2])) return Vector3f::Zero();
+  return solver.eigenvectors().col(0);
+}
+
 }  // namespace
 
 void surface_points(const VoxelMoments& moments, const Vector3f& scanner,
@@ -58,7 +69,6 @@ void surface_points(const VoxelMoments& moments, const Vector3f& scanner,
   const auto min_points = static_cast<float>(parameters.min_surface_points);
   const auto min_spread = static_cast<float>(parameters.min_beam_spread);
   points->clear();
-  Eigen::SelfAdjointEigenSolver<Matrix3f> solver;
   for (const Moments& middle : moments.voxels()) {
     Neighbourhood around;
     const Eigen::Vector3i cell = middle.key.cell();
@@ -72,12 +82,7 @@ void surface_points(const VoxelMoments& moments, const Vector3f& scanner,
     if (around.count < min_points) continue;
     const Vector3f position = (cell.cast<float>() + middle.mean()) * moments.size();
     const float spread = (around.highest_beam - around.lowest_beam) * (position - scanner).norm();
-    solver.computeDirect(around.covariance());
-    constexpr float line = 1e-3f;  // middle to largest eigenvalue
-    const bool surface =
-        spread > min_spread && solver.eigenvalues()[1] > line * solver.eigenvalues()[2];
-    points->push_back(
-        {position, surface ? Vector3f(solver.eigenvectors().col(0)) : Vector3f::Zero()});
+    points->push_back({position, normal_of(around, spread, min_spread)});
   }
 }
 

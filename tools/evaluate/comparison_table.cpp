@@ -206,12 +206,7 @@ std::string to_csv(const Comparison& comparison) {
   for (const RunErrors& run : comparison.runs) {
     const std::string name = csv(run.name);
     for (std::size_t i = 0; i < run.absolute.size(); ++i) {
-      const auto& stamps = run.matched.stamps;
-      const std::string stamp =
-          stamps.empty()
-              ? std::string()
-              : fmt::format("{:.6f}", static_cast<double>(to_nanoseconds(stamps[i])) * 1e-9);
-      text += fmt::format("{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", name, stamp,
+      text += fmt::format("{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", name, stamp_text(run.matched, i),
                           comparison.truth.way[run.matched.frames[i]], run.horizontal[i],
                           run.vertical[i], run.absolute[i]);
     }

@@ -125,12 +125,8 @@ std::string to_text(const Evaluation& e) {
 std::string to_csv(const Evaluation& e) {
   std::string text = "stamp,way,from_start,aligned,step,step_deg\n";
   for (std::size_t i = 0; i < e.matched.truth.size(); ++i) {
-    if (!e.matched.stamps.empty()) {
-      text +=
-          fmt::format("{:.6f}", static_cast<double>(to_nanoseconds(e.matched.stamps[i])) * 1e-9);
-    }
-    text += fmt::format(",{:.4f},{:.4f},{:.4f},", e.errors.along[i], e.errors.from_start[i],
-                        e.errors.aligned[i]);
+    text += fmt::format("{},{:.4f},{:.4f},{:.4f},", stamp_text(e.matched, i), e.errors.along[i],
+                        e.errors.from_start[i], e.errors.aligned[i]);
     text += i == 0 ? ","
                    : fmt::format("{:.5f},{:.6f}", e.errors.step_m[i - 1], e.errors.step_deg[i - 1]);
     text += '\n';

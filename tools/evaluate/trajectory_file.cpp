@@ -177,6 +177,11 @@ Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,
   return matched;
 }
 
+std::string stamp_text(const Matched& matched, std::size_t pose) {
+  if (matched.stamps.empty()) return {};
+  return fmt::format("{:.6f}", static_cast<double>(to_nanoseconds(matched.stamps[pose])) * 1e-9);
+}
+
 Trajectory from_kitti_mercator(const Trajectory& poses, double latitude, double azimuth) {
   constexpr double e2 = 0.00669437999014;
   const double w2 = 1.0 - e2 * std::pow(std::sin(latitude), 2);

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -77,6 +78,9 @@ struct Matched {
 };
 Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,
               Duration tolerance);
+
+// Returns the stamp of a matched pose in seconds, to the microsecond, or nothing without stamps.
+std::string stamp_text(const Matched& matched, std::size_t pose);
 
 // KITTI's ground truth is OXTS put through a spherical Mercator projection: at 49 degrees north its
 // metres are 0.19 % short from east to west and 0.10 % long from north to south. Returns positions

@@ -30,7 +30,8 @@ class PointCloud {
   std::vector<lidar::SurfacePoint> points_;
 };
 
-// Returns x y z (m) and the normal of each point.
+// Returns x y z (m) and the normal of each point, which is zero where its points do not determine
+// it.
 sensors::CloudTable table_of(const std::vector<lidar::SurfacePoint>& points);
 
 // Returns x y z (m) and intensity of a scan's raw points, and their time (s, from the scan's stamp)

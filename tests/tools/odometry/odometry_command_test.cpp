@@ -189,7 +189,7 @@ TEST(EvaluateCommand, WhatCannotBeMeantIsRefusedWithTheRemedy) {
   EXPECT_NE(tum.error.find("--tum"), std::string::npos) << tum.error;
 }
 
-// What a run has recorded is compared with what it was told of the truth.
+// The log of a replay holds both the fused states, as a run, and the reference poses, as the truth.
 TEST(EvaluateCommand, ALogIsARunAndATruth) {
   MAPLOOP_REQUIRE_DRIVE();
   const TemporaryFolder folder;
