@@ -44,9 +44,10 @@ Track read_track(const std::filesystem::path& file, const TrackOptions& options)
 }
 
 void keep(const mapmatch::VehicleFix& fix, std::string_view name, Track& track) {
-  if (track.size() == input_limits::fixes)
+  if (track.size() == input_limits::fixes) {
     throw std::runtime_error(std::string(name) + ": more than " +
                              std::to_string(input_limits::fixes) + " fixes; cut it into parts");
+  }
   track.push_back(fix);
 }
 

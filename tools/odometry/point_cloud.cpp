@@ -35,9 +35,10 @@ void PointCloud::add(const LidarScan& scan, Time stamp, const lidar::Twist& moti
 
 sensors::CloudTable table_of(const std::vector<lidar::SurfacePoint>& points) {
   sensors::CloudTable table{{"x", "y", "z", "normal_x", "normal_y", "normal_z"}, {}};
-  for (const lidar::SurfacePoint& point : points)
+  for (const lidar::SurfacePoint& point : points) {
     for (const Eigen::Vector3f* v : {&point.position, &point.normal})
       table.values.insert(table.values.end(), v->begin(), v->end());
+  }
   return table;
 }
 
