@@ -54,7 +54,7 @@ OdometerResult LidarOdometry::process(const std::optional<ScanView>& scan,
   result.lidar.source = OdometrySource::lidar;
   result.lidar.status = OdometryStatus::bad_input;
   if (visual != nullptr) result.odometry = *visual;
-  if (visual != nullptr && visual->status == OdometryStatus::bad_input) visual = nullptr;
+  if (visual != nullptr && !tells_a_pose(*visual)) visual = nullptr;
   if (!scan && visual == nullptr) return result;
   begin(visual != nullptr ? static_cast<const Sample&>(*visual) : *scan, &result.lidar);
   if (!in_order(scan, result.lidar.stamp) || (visual == nullptr && too_late(*scan))) {
@@ -74,6 +74,16 @@ OdometerResult LidarOdometry::process(const std::optional<ScanView>& scan,
   advance(T_from_to, result);
   if (scan) learn(*scan, result.lidar.status);
   return result;
+}
+
+// Without any motion, the pose at the stamp of a refused visual one cannot be told.
+bool LidarOdometry::tells_a_pose(const RelativeMotion& visual) const {
+  if (visual.status == OdometryStatus::ok) return true;
+  return visual.status != OdometryStatus::bad_input && twist_ && !after_gap(visual.stamp);
+}
+
+bool LidarOdometry::after_gap(Time stamp) const {
+  return started_ && to_seconds(stamp - stamp_) > parameters_.max_gap;
 }
 
 void LidarOdometry::begin(const Sample& sample, LidarMotion* motion) const {
@@ -110,7 +120,7 @@ void LidarOdometry::restart() {
 LidarOdometry::Prediction LidarOdometry::predict(Time stamp, const RelativeMotion* visual) {
   Prediction p;
   const double seconds = started_ ? to_seconds(stamp - stamp_) : 0.0;
-  if (seconds > parameters_.max_gap) {
+  if (after_gap(stamp)) {
     restart();
     twist_.reset();
   }

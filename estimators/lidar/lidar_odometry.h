@@ -42,8 +42,9 @@ class LidarOdometry {
 
   // Processes one step with a scan, with the visual motion of the image pair taken during that
   // scan, or with both. The resulting pose is at the visual motion's stamp, or at the scan's if
-  // there is no visual motion. Each motion begins where the previous step ended. If the status of
-  // `lidar` is not ok, its pose and covariance are identity and zero. Statuses:
+  // there is no visual motion, or if it is refused before any motion is known. Each motion begins
+  // where the previous step ended. If the status of `lidar` is not ok, its pose and covariance are
+  // identity and zero. Statuses:
   //   first_frame       no scan yet, or the last step is older than max_gap
   //   too_few_features  fewer than min_points surface points: empty, tiny or blocked scan
   //   too_few_inliers   too little of the scan is on the map
@@ -80,6 +81,8 @@ class LidarOdometry {
 
   template <class Archive, class Odometry>
   static void describe(Archive& ar, Odometry& odometry);
+  bool tells_a_pose(const RelativeMotion& visual) const;
+  bool after_gap(Time stamp) const;
   void begin(const Sample& sample, LidarMotion* motion) const;
   bool in_order(const std::optional<ScanView>& scan, Time stamp);
   bool too_late(const ScanView& scan) const;

@@ -106,6 +106,25 @@ TEST_F(LidarOdometryTest, RefusedVisualMotionIsReplacedByTheLastOne) {
   EXPECT_EQ(r.odometry.source, OdometrySource::lidar);
 }
 
+// The first image shows no motion, so the pose at its stamp, half a turn before that of the scan,
+// cannot be told.
+TEST_F(LidarOdometryTest, RefusedVisualMotionBeforeAnyOtherHasNoPose) {
+  RelativeMotion first;
+  first.status = OdometryStatus::first_frame;
+  first.stamp = scans_[1].start + Duration(1);
+  LidarOdometry with_image = odometry(), between = odometry();
+  with_image.process(&scans_[0], nullptr);
+  const OdometerResult r = with_image.process(&scans_[1], &first);
+  EXPECT_EQ(r.odometry.status, OdometryStatus::ok);
+  EXPECT_EQ(r.odometry.from, scans_[0].stamp);
+  EXPECT_EQ(r.odometry.stamp, scans_[1].stamp);
+  EXPECT_NEAR(r.odometry.translation.x(), 1.3, 0.15);
+
+  between.process(&scans_[0], nullptr);
+  EXPECT_EQ(between.process(nullptr, &first).odometry.status, OdometryStatus::first_frame);
+  EXPECT_EQ(between.process(&scans_[1], nullptr).odometry.translation, r.odometry.translation);
+}
+
 TEST_F(LidarOdometryTest, VisualMotionFarFromTheScansIsReportedAsDisagreement) {
   LidarParameters parameters;
   parameters.max_disagreement = 0.05;
