@@ -11,6 +11,7 @@
 #include "runtime/vehicle/drivers/live_driver.h"
 #include "runtime/vehicle/drivers/prefetched_source.h"
 #include "runtime/vehicle/drivers/replay_driver.h"
+#include "runtime/vehicle/drivers/sensor_delays.h"
 #include "runtime/vehicle/stages/lidar_stage.h"
 #include "runtime/vehicle/stages/mapmatch_stage.h"
 #include "runtime/vehicle/stages/ppp_stage.h"
@@ -236,8 +237,8 @@ void Vehicle::Graph::make_stages(const VehicleCalibration& calibration,
     if (preview) stereo.show_to(preview->image());
   }
   if (rings.has(stages::lidar)) {
-    auto& lidar =
-        add_stage<LidarStage>(lidar::VisualLidarOdometer(calibration.T_body_velo, config.lidar));
+    auto& lidar = add_stage<LidarStage>(
+        lidar::VisualLidarOdometer(calibration.T_body_velo, config.lidar), delays_of(config));
     if (preview) lidar.show_to(preview->scan(), static_cast<std::size_t>(config.preview.points));
   }
   if (rings.has(stages::ppp))

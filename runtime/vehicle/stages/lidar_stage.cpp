@@ -13,9 +13,11 @@ constexpr std::size_t usual_points = 150'000;
 
 }  // namespace
 
-LidarStage::LidarStage(Rings& rings, lidar::VisualLidarOdometer odometer)
+LidarStage::LidarStage(Rings& rings, lidar::VisualLidarOdometer odometer,
+                       const SensorDelays& delays)
     : GraphStage(stages::lidar, rings),
       odometer_(std::move(odometer)),
+      patience_(spec().patience + std::max({Duration::zero(), delays.camera, delays.lidar})),
       lidar_(outputs(rings::lidar_publisher)),
       odometry_(outputs(rings::lidar_fusion, rings::lidar_odometry_publisher)) {
   GraphStage::take(intake_, rings::velodyne_lidar, [this](LidarScan& scan) { take(scan); });
@@ -94,7 +96,7 @@ void LidarStage::match(Time now) {
 
 // What has waited long enough by then.
 void LidarStage::let_go_until(Time t) {
-  const auto end = [](const Sample& sample) { return sample.available + stages::lidar.patience; };
+  const auto end = [this](const Sample& sample) { return sample.available + patience_; };
   const auto released = [&](const Sample& sample) {
     return clock_->is_paced() ? clock_->due(end(sample)) : sample.received;
   };

@@ -10,6 +10,7 @@
 #include "msgs/odometry.h"
 #include "msgs/visual_motion.h"
 #include "runtime/core/intake.h"
+#include "runtime/vehicle/drivers/sensor_delays.h"
 #include "runtime/vehicle/graph/graph_stage.h"
 #include "runtime/vehicle/health/reason_counts.h"
 #include "runtime/vehicle/health/watchdog.h"
@@ -19,13 +20,14 @@ namespace maploop::vehicle {
 
 // Processes a scan together with the visual motion of the image pair that was taken during its
 // turn. Whichever comes first waits for the other, at most for the stage's patience
-// (stage_specs.h), or until it is certain that the other does not come. A visual motion waits only
+// (stage_specs.h) and the larger delay of both sensors, whose samples come so much later after
+// their stamps, or until it is certain that the other does not come. A visual motion waits only
 // if a scan is due within two turns after the last one. A visual motion without a scan is passed on
 // with the length that the scans so far suggest. What is used, and when, depends on the times of
 // the data alone.
 class LidarStage final : public GraphStage {
  public:
-  LidarStage(Rings& rings, lidar::VisualLidarOdometer odometer);
+  LidarStage(Rings& rings, lidar::VisualLidarOdometer odometer, const SensorDelays& delays);
 
   void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
   std::size_t saved_bytes() const override;
@@ -58,6 +60,7 @@ class LidarStage final : public GraphStage {
   void archive(Archive& ar);
 
   lidar::VisualLidarOdometer odometer_;
+  Duration patience_;
   Outputs<LidarMotion> lidar_;
   Outputs<RelativeMotion> odometry_;
   runtime::Intake intake_;
