@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "msgs/frames.h"
 #include "msgs/nav_state.h"
@@ -24,12 +25,29 @@ struct OdomState : Sample {
   }
 };
 
+// This is how far the sensors of odometry are mounted beside their description, as the fusion has
+// found it so far. The body of a fused state looks along the travel.
+struct OdometryMount {
+  double course = 0.0;  // rad, their described forward axis points to the right of the travel
+  double left = 0.0;    // m, they are described too far to the left
+
+  // Returns the pose of the described axes, in which the sensors' poses are given, in those of the
+  // body.
+  Eigen::Isometry3d T_body_described() const {
+    return Eigen::Translation3d(0.0, -left, 0.0) *
+           Eigen::AngleAxisd(course, Eigen::Vector3d::UnitZ());
+  }
+
+  void archive(auto& ar) { ar(course, left); }
+};
+
 // This is what the fusion gives out: the pose in the frame of the map, which fixes and roads may
 // move at once, and that in the frame of odometry. Both have the same stamp.
 struct FusedState : NavState {
   OdomState odom;
+  OdometryMount mount;
 
-  void archive(auto& ar) { ar(static_cast<NavState&>(*this), odom); }
+  void archive(auto& ar) { ar(static_cast<NavState&>(*this), odom, mount); }
 };
 
 }  // namespace maploop

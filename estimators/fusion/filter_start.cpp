@@ -117,7 +117,7 @@ void ReducedImuFilter::take_course(const GnssFix& fix) {
   while (history_.size() > 0 && history_[0].key.stamp < now) drop_oldest();
   initialized_ = false;
   if (start(known).refused()) return;
-  history_.past.state.odom_at_clone = state->odom();
+  history_.past.state.odom_at_clone = state->odom_of_described();
   roll_forward(0);
 }
 

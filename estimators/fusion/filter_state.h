@@ -9,6 +9,7 @@
 #include "estimators/fusion/contradiction.h"
 #include "estimators/fusion/refused_fixes.h"
 #include "msgs/frames.h"
+#include "msgs/odom_state.h"
 #include "msgs/time.h"
 
 namespace maploop::fusion {
@@ -126,7 +127,7 @@ struct FilterState {
   StateVector x = StateVector::Zero();
   StateMatrix P = StateMatrix::Zero();
   Time clone_stamp{};
-  OdomPose odom_at_clone;
+  OdomPose odom_at_clone;  // of the axes in which odometry is described
   Time start{};
   // These are the stamps of the newest measurement of each kind that this state includes (epoch 0:
   // none).
@@ -168,9 +169,13 @@ struct FilterState {
   }
   double climb() const { return x[index::pitch] + x[index::climb_offset]; }  // rad, of travel
   Eigen::Vector3d gnss_lever() const { return x.segment<3>(index::lever_forward); }  // m, body
+  OdometryMount mount() const { return {x[index::odometry_course], x[index::odometry_left]}; }
   // Returns (29) of METHOD.md: the pose in the frame of odometry, at the clone, and the motion
   // since. A correction by an absolute measurement moves the clone as well, so it cancels here.
   OdomPose odom() const;
+  // The same of the axes in which odometry is described: they keep their pose when the filter
+  // learns how they are mounted.
+  OdomPose odom_of_described() const;
 };
 
 template <class Archive>
@@ -206,13 +211,24 @@ inline void doubt_with_clone(FilterState& state, int original, double sigma) {
   }
 }
 
-inline OdomPose FilterState::odom() const {
+// The body's pose times the mounting's is that of the described axes. The positions are taken as
+// differences, which lose no digits far from the origin.
+inline OdomPose FilterState::odom_of_described() const {
+  const Eigen::Isometry3d M = mount().T_body_described();
+  const Eigen::Matrix3d R_clone = rotation_enu_body(clone_attitude());
+  const Eigen::Matrix3d R_now = rotation_enu_body(attitude());
   const Eigen::Matrix3d to_odom =
-      odom_at_clone.rotation.toRotationMatrix() * rotation_enu_body(clone_attitude()).transpose();
+      odom_at_clone.rotation.toRotationMatrix() * (R_clone * M.linear()).transpose();
   // (29) of METHOD.md
-  return {
-      odom_at_clone.position + to_odom * moved(),
-      Eigen::Quaterniond(Eigen::Matrix3d(to_odom * rotation_enu_body(attitude()))).normalized()};
+  return {odom_at_clone.position + to_odom * (moved() + (R_now - R_clone) * M.translation()),
+          Eigen::Quaterniond(Eigen::Matrix3d(to_odom * R_now * M.linear())).normalized()};
+}
+
+inline OdomPose FilterState::odom() const {
+  const OdomPose described = odom_of_described();
+  const Eigen::Isometry3d back = mount().T_body_described().inverse();
+  return {described.position + described.rotation * back.translation(),
+          (described.rotation * Eigen::Quaterniond(back.linear())).normalized()};
 }
 
 // Copies the pose to the clone, fully correlated with the original, and restarts the distance from
@@ -235,7 +251,7 @@ inline void copy_to_clone(FilterState& state) {
 
 // Takes the stochastic clone, from which the frame of odometry goes on.
 inline void take_clone(FilterState& state) {
-  state.odom_at_clone = state.odom();
+  state.odom_at_clone = state.odom_of_described();
   copy_to_clone(state);
 }
 
@@ -250,7 +266,7 @@ inline void start_chain(FilterState& state) {
 }
 
 // Starts the clone and the chained azimuth at a state that was set to new values. The frame of
-// odometry goes on from `odom`.
+// odometry goes on from `odom`, the pose of the described axes.
 inline void start_clone(FilterState& state, const OdomPose& odom) {
   copy_to_clone(state);
   state.odom_at_clone = odom;
@@ -259,8 +275,10 @@ inline void start_clone(FilterState& state, const OdomPose& odom) {
 
 // Does the same for a first state, at which the frame of odometry agrees with enu.
 inline void start_clone(FilterState& state) {
-  start_clone(state, {state.x.segment<3>(index::east),
-                      Eigen::Quaterniond(rotation_enu_body(state.attitude()))});
+  const Eigen::Matrix3d R_enu_body = rotation_enu_body(state.attitude());
+  const Eigen::Isometry3d M = state.mount().T_body_described();
+  start_clone(state, {state.x.segment<3>(index::east) + R_enu_body * M.translation(),
+                      Eigen::Quaterniond(Eigen::Matrix3d(R_enu_body * M.linear()))});
 }
 
 // Returns in its columns how the body turns, as a rotation vector in enu, per radian of azimuth,

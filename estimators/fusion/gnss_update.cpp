@@ -28,7 +28,7 @@ void restart_from(FilterState& state, GnssFix fix, const LocalFrame& frame,
   fix.velocity_stamp = fix.stamp;
   const StateMatrix known = state.P;
   const StateVector x = state.x;
-  const OdomPose odom = state.odom();
+  const OdomPose odom = state.odom_of_described();
   FusionParameters learnt = p;
   learnt.climb_offset = x[climb_offset];
   learnt.rear_axle_distance = x[axle_distance];

@@ -18,7 +18,7 @@ void set_known(FilterState& state, int i, double value, double sigma) {
 void reset(FilterState& state, const MapFeedback& feedback, const LocalFrame& frame) {
   using namespace index;
   const Eigen::Vector3d point = frame.to_enu(feedback.point);
-  const OdomPose odom = state.odom();
+  const OdomPose odom = state.odom_of_described();
   set_known(state, east, point.x(), feedback.cross_sigma);
   set_known(state, north, point.y(), feedback.cross_sigma);
   set_known(state, azimuth, feedback.link_azimuth, feedback.azimuth_sigma);

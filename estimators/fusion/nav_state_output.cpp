@@ -92,6 +92,7 @@ FusedState fused_state(const FilterState& state, const Geodetic& origin,
   fused.odom.attitude = attitude_from_rotation(pose.rotation.toRotationMatrix());
   fused.odom.velocity_body = rotation_enu_body(fused.attitude).transpose() * fused.velocity_enu;
   fused.odom.yaw_rate = state.yaw_rate - state.x[index::gyro_bias];
+  fused.mount = state.mount();
   return fused;
 }
 

@@ -77,9 +77,11 @@ std::vector<fusion_score::OutageEnd> outage_ends(const fusion_score::NavTrack& t
                                    recording.first_stamp);
 }
 
-void TrajectoryCollector::add(Time stamp, const Eigen::Vector3d& position,
+void TrajectoryCollector::add(const FusedState& state, const Eigen::Vector3d& position,
                               const Attitude& attitude) {
-  poses_[stamp] = Eigen::Translation3d(position) * Eigen::Isometry3d(rotation_enu_body(attitude));
+  poses_[state.stamp] = Eigen::Translation3d(position) *
+                        Eigen::Isometry3d(rotation_enu_body(attitude)) *
+                        state.mount.T_body_described();
 }
 
 evaluation::StampedTrajectory TrajectoryCollector::poses(
@@ -121,12 +123,12 @@ vehicle::Observer RunPass::observer() {
   o.odometry = [this](const RelativeMotion& motion) { odometry.add(motion); };
   o.lidar = [this](const LidarMotion& motion) { lidar.add(motion); };
   o.image_state = [this](const FusedState& state) {
-    fused.add(state.stamp, state.position_enu, state.attitude);
-    odom.add(state.stamp, state.odom.position, state.odom.attitude);
+    fused.add(state, state.position_enu, state.attitude);
+    odom.add(state, state.odom.position, state.odom.attitude);
   };
   o.ppp = [this](const PppState& state) { ppp_states[state.stamp] = state; };
   o.nav_state = [this, last = o.nav_state](const FusedState& state) {
-    if (track.add(state)) odom_track.add(state.stamp, state.odom.position, state.odom.attitude);
+    if (track.add(state)) odom_track.add(state, state.odom.position, state.odom.attitude);
     last(state);
   };
   o.map_match = [this](const MapMatch& match) {

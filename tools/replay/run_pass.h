@@ -30,8 +30,9 @@ class TrajectoryCollector {
   // Odometry is chained, in its first frame of the body. A refused motion is replaced by the last
   // velocities.
   void add(const RelativeMotion& motion) { poses_[motion.stamp] = chain_.add(motion); }
-  // A fused state is a pose in `enu`, or in the frame of odometry.
-  void add(Time stamp, const Eigen::Vector3d& position, const Attitude& attitude);
+  // The pose of a fused state, in `enu` or in the frame of odometry, is one of the axes in which
+  // the sensors are described, so that it can be compared with odometry.
+  void add(const FusedState& state, const Eigen::Vector3d& position, const Attitude& attitude);
 
   // Returns T_frame_body at each stamp, times `T_body_point`.
   evaluation::StampedTrajectory poses(
