@@ -9,15 +9,17 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using namespace index;
 
-AttitudeRates about_vertical(const StateVector& x, double yaw_rate, const LocalEarth& earth) {
+AttitudeRates about_vertical(const StateVector& x, const InertialInput& input,
+                             const LocalEarth& earth) {
   const double sp = std::sin(x[pitch]), cp = std::cos(x[pitch]);
   const double sr = std::sin(x[roll]), cr = std::cos(x[roll]);
-  const double rate = yaw_rate - x[gyro_bias];
+  const double rate = input.yaw_rate - x[gyro_bias];
   AttitudeRates rates;
   rates.value[0] = -(rate / (cp * cr) - earth.earth_rate_up());  // (3) of METHOD.md
   rates.by_state(0, pitch) = -rate * sp / (cp * cp * cr);
   rates.by_state(0, roll) = -rate * sr / (cp * cr * cr);
   rates.by_state(0, gyro_bias) = 1.0 / (cp * cr);
+  rates.by_state(0, imu_delay) = -input.change.yaw_rate / (cp * cr);
   rates.level = cp * cr;
   return rates;
 }
@@ -26,7 +28,7 @@ AttitudeRates about_vertical(const StateVector& x, double yaw_rate, const LocalE
 
 AttitudeRates attitude_rates(const StateVector& x, const InertialInput& input,
                              const LocalEarth& earth) {
-  if (!input.six_axes) return about_vertical(x, input.yaw_rate, earth);
+  if (!input.six_axes) return about_vertical(x, input, earth);
   const double sp = std::sin(x[pitch]), cp = std::cos(x[pitch]);
   const double sr = std::sin(x[roll]), cr = std::cos(x[roll]);
   const Attitude attitude{x[azimuth], x[pitch], x[roll]};
@@ -57,6 +59,8 @@ AttitudeRates attitude_rates(const StateVector& x, const InertialInput& input,
   rates.by_state.col(roll_gyro_bias) = -T.col(0);
   rates.by_state.col(pitch_gyro_bias) = -T.col(1);
   rates.by_state.col(gyro_bias) = -T.col(2);
+  rates.by_state.col(imu_delay) =
+      T * Vector3d(input.change.roll_rate, input.change.pitch_rate, input.change.yaw_rate);
   return rates;
 }
 

@@ -14,13 +14,14 @@ namespace {
 
 constexpr double tight_turn = 0.1;  // rad/s
 
-// Interpolates linearly between samples; after the newest one, returns its own value.
-double yaw_rate_at(const InertialSamples& samples, Time t) {
+// Interpolates linearly between samples, of what was measured `delay` seconds later; after the
+// newest one, returns its own value.
+double yaw_rate_at(const InertialSamples& samples, Time t, double delay) {
   if (samples.before == nullptr) return 0.0;
   const ImuSample& a = *samples.before;
   if (samples.after == nullptr) return a.yaw_rate;
   const double gap = to_seconds(samples.after->stamp - a.stamp);
-  const double share = gap > 0.0 ? to_seconds(t - a.stamp) / gap : 0.0;
+  const double share = gap > 0.0 ? (to_seconds(t - a.stamp) + delay) / gap : 0.0;
   return a.yaw_rate + share * (samples.after->yaw_rate - a.yaw_rate);
 }
 
@@ -57,7 +58,7 @@ void apply_sample(FilterState& state, const ImuSample& sample, const ImuSample& 
 
 void advance(FilterState& state, const InertialSamples& samples, Time to, const LocalEarth& earth,
              const FusionParameters& p) {
-  if (to > state.stamp) state.yaw_rate = yaw_rate_at(samples, to);
+  if (to > state.stamp) state.yaw_rate = yaw_rate_at(samples, to, state.x[index::imu_delay]);
   while (state.stamp < to) {
     const Time end = end_of_stretch(samples, state.stamp, to, p);
     predict(state, inertial_input(samples, state.stamp, end, p), earth, p);

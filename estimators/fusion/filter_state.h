@@ -32,6 +32,7 @@ enum : int {
   pitch_gyro_bias,  // rad/s, adds to the measured rate about body y
   unit_course,      // rad, the unit points to the left of the direction of travel
   up_bias,          // m/s^2, adds to the measured upward specific force
+  imu_delay,        // s, inertial data is later than its stamps, against odometry
   climb_offset,     // rad, direction of travel above body x, from mounting and load
   odometry_course,  // rad, odometry's motions point to the right of the travel, from its mounting
   odometry_left,    // m, the place that odometry is from is described too far to the left
@@ -61,28 +62,6 @@ enum : int {
 
 using StateVector = Eigen::Matrix<double, index::count, 1>;
 using StateMatrix = Eigen::Matrix<double, index::count, index::count>;
-
-// Estimates by how much the gyro's data is later than its stamps, compared with odometry. If the
-// turning is late by d, the increment over each interval contains an error of d times the change of
-// the yaw rate. The estimate is a least-squares fit over all intervals.
-struct DelayEstimate {
-  double information = 0.0;  // 1/s^2
-  double weighted = 0.0;     // 1/s
-
-  void add(double rate_change, double residual, double variance) {
-    information += rate_change * rate_change / variance;
-    weighted += rate_change * residual / variance;
-  }
-  bool known() const { return information > 0.0; }
-  // (25) of METHOD.md
-  double delay() const { return weighted / information; }        // s
-  double sigma() const { return 1.0 / std::sqrt(information); }  // s
-};
-
-template <class Archive>
-void archive(Archive& ar, DelayEstimate& e) {
-  ar(e.information, e.weighted);
-}
 
 // This is the memory of the zero-velocity detector (inertial_update.h).
 struct Stillness {
@@ -152,10 +131,8 @@ struct FilterState {
   // `chain_odometry_azimuth` uses it.
   double chained_azimuth = 0.0;
   Stillness stillness;
-  Duration imu_repeated{};      // how long inertial samples have only repeated one value
-  double yaw_rate = 0.0;        // rad/s, measured by the gyro at this time
-  double clone_yaw_rate = 0.0;  // rad/s, measured by the gyro at the time of the clone
-  DelayEstimate imu_delay;
+  Duration imu_repeated{};  // how long inertial samples have only repeated one value
+  double yaw_rate = 0.0;    // rad/s, measured by the gyro, of this time by its delay
   Contradictions contradictions;
 
   double ground_speed() const { return x[index::speed] / (1.0 + x[index::speed_scale]); }
@@ -185,7 +162,7 @@ void archive(Archive& ar, FilterState& s) {
      s.odometry_applied, s.odometry_refused, s.gated_in_a_row, s.refused_fixes,
      s.velocity_gated_in_a_row, s.wheel_gated_in_a_row, s.map_gated_in_a_row, s.recoveries,
      s.reinitializations, s.chained_azimuth, s.stillness, s.imu_repeated, s.yaw_rate,
-     s.clone_yaw_rate, s.imu_delay, s.contradictions);
+     s.contradictions);
 }
 
 // Returns the unit vector in enu at an azimuth and an elevation (rad).
@@ -246,7 +223,6 @@ inline void copy_to_clone(FilterState& state) {
   state.P.row(index::distance).setZero();
   state.P.col(index::distance).setZero();
   state.clone_stamp = state.stamp;
-  state.clone_yaw_rate = state.yaw_rate;
 }
 
 // Takes the stochastic clone, from which the frame of odometry goes on.

@@ -36,7 +36,7 @@ void restart_from(FilterState& state, GnssFix fix, const LocalFrame& frame,
   const FilterState fresh = initial_state(fix, frame, learnt, state.yaw_rate - x[gyro_bias]);
   state.x = fresh.x;
   state.P = fresh.P;
-  for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset, odometry_course,
+  for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset, imu_delay, odometry_course,
                       odometry_left, axle_distance, rear_slip, lidar_scale, lidar_turn}) {
     state.x[i] = x[i];
     state.P.row(i).setZero();

@@ -31,6 +31,16 @@ void interpolate(const InertialValues& a, const InertialValues& b, double weight
   input.pitch_rate = between(&V::pitch_rate);
 }
 
+InertialValues change(const InertialValues& a, const InertialValues& b, double seconds) {
+  InertialValues per_second;
+  using V = InertialValues;
+  for (double V::*value : {&V::specific_force_forward, &V::specific_force_left, &V::yaw_rate,
+                           &V::roll_rate, &V::pitch_rate}) {
+    per_second.*value = (b.*value - a.*value) / seconds;
+  }
+  return per_second;
+}
+
 bool neighbours(const InertialSamples& samples, const FusionParameters& parameters) {
   return samples.before != nullptr && samples.after != nullptr &&
          samples.after->stamp - samples.before->stamp <= from_seconds(parameters.imu_bridge) &&
@@ -43,6 +53,15 @@ Time measured(const InertialSamples& samples) {
 }
 
 }  // namespace
+
+InertialInput advanced(InertialInput input, double delay) {
+  input.forward_force += delay * input.change.specific_force_forward;
+  input.yaw_rate += delay * input.change.yaw_rate;
+  input.left_force += delay * input.change.specific_force_left;
+  input.roll_rate += delay * input.change.roll_rate;
+  input.pitch_rate += delay * input.change.pitch_rate;
+  return input;
+}
 
 Duration repetition(const InertialSamples& samples, const ImuSample& sample, double speed,
                     const FusionParameters& parameters) {
@@ -79,6 +98,7 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
     const double gap = to_seconds(b.stamp - a.stamp);
     const double weight = to_seconds((from - a.stamp) + (to - a.stamp)) / (2.0 * gap);
     interpolate(a, b, weight, parameters, input);
+    input.change = change(a, b, gap);
     input.unseen_change = gap * gap * gap * input.duration / 64.0;  // (1) of METHOD.md
     return input;
   }

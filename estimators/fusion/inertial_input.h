@@ -15,10 +15,14 @@ struct InertialInput {
   bool six_axes = false;
   double left_force = 0.0;                   // m/s^2
   double roll_rate = 0.0, pitch_rate = 0.0;  // rad/s about body x and y
+  InertialValues change;                     // of all values per second, between the samples
   // This is the variance (s^4) of the integral over the stretch if the integrand changes
   // unobserved, between or after the samples, with a rate of sigma 1 per second.
   double unseen_change = 0.0;
 };
+
+// Returns the input that was measured `delay` seconds later, to first order.
+InertialInput advanced(InertialInput input, double delay);
 
 // These are two consecutive samples; either may be missing (null).
 struct InertialSamples {

@@ -44,6 +44,7 @@ void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
   state.P(speed_scale, speed_scale) = scale_variance;
   state.P(speed, speed) += state.x[speed] * state.x[speed] * scale_variance;
   state.P(speed, speed_scale) = state.P(speed_scale, speed) = state.x[speed] * scale_variance;
+  add(imu_delay, p.imu_delay_sigma);
   add(odometry_course, p.odometry_course_sigma);
   add(odometry_left, p.odometry_lever_sigma);
   state.x[axle_distance] = p.rear_axle_distance;

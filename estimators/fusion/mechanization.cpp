@@ -49,6 +49,7 @@ Acceleration acceleration_of(const StateVector& x, const InertialInput& input,
   a.by_state[azimuth] = -g * vertical.dot(Vector3d(cA * cp, -sA * cp, 0.0));
   a.by_state[pitch] = -g * vertical.dot(Vector3d(-sA * sp, -cA * sp, cp));
   a.by_state[forward_bias] = -1.0;
+  a.by_state[imu_delay] = input.change.specific_force_forward;
   if (!input.six_axes) return a;
   // (31) of METHOD.md
   const double rate = input.yaw_rate - x[gyro_bias];
@@ -56,14 +57,17 @@ Acceleration acceleration_of(const StateVector& x, const InertialInput& input,
   a.by_state[axle_distance] = rate * rate;
   a.by_state[gyro_bias] = -2.0 * x[axle_distance] * rate;
   a.by_state[unit_course] = -input.left_force;
+  a.by_state[imu_delay] += 2.0 * x[axle_distance] * rate * input.change.yaw_rate -
+                           x[unit_course] * input.change.specific_force_left;
   return a;
 }
 
 }  // namespace
 
-Step mechanize(const StateVector& x, const InertialInput& input, const LocalEarth& earth,
+Step mechanize(const StateVector& x, const InertialInput& measured, const LocalEarth& earth,
                const FusionParameters& parameters) {
   using namespace index;
+  const InertialInput input = advanced(measured, x[imu_delay]);  // (25) of METHOD.md
   const double dt = input.duration;
   const double rate = input.inertial ? input.yaw_rate - x[gyro_bias] : 0.0;  // rad/s, body up
   AttitudeRates turning;
@@ -115,7 +119,10 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   const Vector3d left_by_azimuth(std::sin(mid_azimuth), std::cos(mid_azimuth), 0.0);
   F.middleRows<3>(east) += dt * swing * left_by_azimuth * (0.5 * dt * azimuth_rate_by);
   F.block<3, 1>(east, azimuth) += dt * swing * left_by_azimuth;
-  if (input.inertial) F.block<3, 1>(east, gyro_bias) -= dt * arm * left;
+  if (input.inertial) {
+    F.block<3, 1>(east, gyro_bias) -= dt * arm * left;
+    F.block<3, 1>(east, imu_delay) += dt * arm * input.change.yaw_rate * left;
+  }
   F.row(speed) += dt * acceleration_by;
   F.middleRows<3>(azimuth) += dt * turning.by_state;
   F.row(distance) += 0.5 * dt * dt * acceleration_by;
@@ -210,6 +217,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
     walk(unit_course, 0.1 * p.unit_course_sigma, p.accelerometer_bias_time);
     walk(up_bias, p.accelerometer_bias_sigma, p.accelerometer_bias_time);
   }
+  walk(imu_delay, 0.1 * p.imu_delay_sigma, p.accelerometer_bias_time);
   walk(lidar_scale, p.lidar_scale_sigma, p.lidar_error_time);
   walk(lidar_turn, p.lidar_turn_sigma, p.lidar_error_time);
   Q(speed_scale, speed_scale) += dt * squared(p.speed_scale_walk);

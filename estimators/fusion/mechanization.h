@@ -23,7 +23,7 @@ struct Step {
 // Returns the state `input.duration` later by the midpoint rule. The specific forces contain
 // gravity, and the Earth's rotation is removed from the gyro. Without inertial data, speed and
 // attitude do not change.
-Step mechanize(const StateVector& x, const InertialInput& input, const LocalEarth& earth,
+Step mechanize(const StateVector& x, const InertialInput& measured, const LocalEarth& earth,
                const FusionParameters& parameters);
 
 // Returns the covariance of the step's noise over its duration: white noise of the inertial

@@ -101,7 +101,6 @@ Outcome correct(FilterState& state, const RelativeMotion& motion, const Innovati
   const StateVector x = state.x;
   const StateMatrix P = state.P;
   const double chained = state.chained_azimuth;
-  const double turning_variance = rows.part<1>(5).covariance(P)(0, 0);
   Outcome outcome = correct_pose(state, rows, p);
   if (!outcome.refused() && p.use_odometry_azimuth && p.chain_odometry_azimuth) {
     chain(state, motion);
@@ -116,8 +115,6 @@ Outcome correct(FilterState& state, const RelativeMotion& motion, const Innovati
     state.x = x;
     state.P = P;
     state.chained_azimuth = chained;
-  } else {
-    state.imu_delay.add(state.yaw_rate - state.clone_yaw_rate, rows.residual[5], turning_variance);
   }
   return outcome;
 }

@@ -165,6 +165,10 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "right of the vehicle's own, from the mounting of camera and LiDAR."},
       {"odometry_course_walk", &P::odometry_course_walk, 0.0, 1.0, "rad/sqrt(s)", expert,
        "Random walk of that angle."},
+      {"imu_delay_sigma", &P::imu_delay_sigma, 0.0, 1.0, "s", usual,
+       "Standard deviation at the start of the time by which inertial data is later than its "
+       "stamps, "
+       "against odometry."},
       {"odometry_lever_sigma", &P::odometry_lever_sigma, tiny, 100.0, "m", usual,
        "Standard deviation of the place to the left from which odometry is, the camera's or the "
        "LiDAR's."},

@@ -174,7 +174,6 @@ FilterStatus ReducedImuFilter::status() const {
   const FilterState& newest = newest_state();
   status.recoveries = newest.recoveries;
   status.reinitializations = newest.reinitializations;
-  status.imu_delay = newest.imu_delay;
   return status;
 }
 

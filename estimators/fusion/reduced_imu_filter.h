@@ -39,7 +39,6 @@ struct FilterStatus {
   Phase phase = Phase::waiting_for_fix;
   std::uint64_t recoveries = 0;  // covariance inflations after consecutive gated measurements
   std::uint64_t reinitializations = 0;  // restarts from a fix after consecutive gated fixes
-  DelayEstimate imu_delay;              // remaining delay of the inertial stamps against odometry
   std::uint64_t restarts = 0;           // restarts after a jump of the data's clock
   std::uint64_t shortened = 0;          // events dropped early because the history was full
   std::uint64_t restorations = 0;       // times a map-free copy replaced the filter
@@ -58,8 +57,8 @@ struct FilterStatus {
 
 template <class Archive>
 void archive(Archive& ar, FilterStatus& s) {
-  ar(s.phase, s.recoveries, s.reinitializations, s.imu_delay, s.restarts, s.shortened,
-     s.restorations, s.unused, s.applied, s.held, s.place, s.refused);
+  ar(s.phase, s.recoveries, s.reinitializations, s.restarts, s.shortened, s.restorations, s.unused,
+     s.applied, s.held, s.place, s.refused);
 }
 
 // Not thread-safe. Reads no clock, and allocates nothing after construction.

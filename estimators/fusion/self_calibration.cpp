@@ -49,6 +49,7 @@ const std::array<Property, calibrated_count> all{{
     {index::up_bias, "up_bias", "bias of the upward accelerometer", "m/s^2", 1.0, bias},
     {index::unit_course, "unit_course", "inertial unit points to the left by", "deg", degrees(1.0),
      mount},
+    {index::imu_delay, "imu_delay", "inertial data later than its stamps by", "ms", 1e3, mount},
 }};
 
 }  // namespace

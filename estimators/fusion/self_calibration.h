@@ -24,7 +24,7 @@ struct CalibratedProperty {
   bool observed() const { return sigma > 0.0 && sigma < 0.5 * sigma_at_start; }
 };
 
-inline constexpr std::size_t calibrated_count = 17;
+inline constexpr std::size_t calibrated_count = 18;
 using SelfCalibrations = std::array<CalibratedProperty, calibrated_count>;
 
 // `sigmas_at_start` are those of the states before any measurement, as they were given.

@@ -94,8 +94,6 @@ void add_scores(json& j, const ReplayResult& r) {
     if (r.feedbacks[i] > 0)
       j["map_feedback"][std::string(to_string(static_cast<FeedbackReason>(i)))] = r.feedbacks[i];
   }
-  if (const auto& late = r.vehicle.imu_delay; late.known())
-    j["imu_delay_left"] = {{"s", late.delay()}, {"sigma_s", late.sigma()}};
   for (const fusion::CalibratedProperty& c : r.vehicle.calibration) {
     if (c.sigma == 0.0) continue;
     j["calibration"].push_back({{"name", c.name},

@@ -128,10 +128,6 @@ void append_accuracies(std::string& text, const ReplayResult& r) {
   } else if (!r.navigation && !r.live) {
     text += "\nAccuracy is not scored: the drive has no reference, or too few poses\n";
   }
-  if (const auto& late = r.vehicle.imu_delay; late.known()) {
-    text += fmt::format("  inertial stamps are {:.1f} +- {:.1f} ms late against odometry\n",
-                        1e3 * late.delay(), 1e3 * late.sigma());
-  }
   append_calibration(text, r.vehicle.calibration);
   if (r.navigation) text += fusion_score::to_text(*r.navigation);
   if (r.links) text += "\nLinks driven against their labels\n" + match::to_text(*r.links);

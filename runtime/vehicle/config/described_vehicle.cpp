@@ -98,6 +98,11 @@ void describe_car(VehicleConfig& config, const VehicleCalibration& recorded) {
     take("fusion", "gnss_lever_sigma", p.gnss_lever_sigma,
          std::max({antenna.forward_sigma, antenna.left_sigma, antenna.up_sigma}));
   }
+  if (const double sigma = d.imu.time.delay_sigma; sigma != neutral.imu.time.delay_sigma) {
+    const double seen = d.camera.time.delay_sigma;
+    take("fusion", "imu_delay_sigma", p.imu_delay_sigma,
+         seen == neutral.camera.time.delay_sigma ? sigma : std::hypot(sigma, seen));
+  }
   if (config.is_given("vehicle.imu", "delay")) config.replay.imu_delay = d.imu.time.delay;
   double& lane = config.feedback.lane_share;
   if (d.car.side_of_road == RoadSide::left) take("feedback", "lane_share", lane, -std::abs(lane));

@@ -29,7 +29,6 @@ VehicleReport Vehicle::Graph::report() const {
   r.health = last_report.health;
   r.named = named;
   r.deadlines = last_report.deadlines;
-  r.imu_delay = fusion->filter_report().status.imu_delay;
   r.calibration = fusion->filter_report().calibration;
   r.place = fusion->filter_report().status.place;
   r.here = fusion->filter_report().here;
@@ -65,19 +64,21 @@ void Vehicle::Graph::look_at_sensors(Health& health) {
   }
 }
 
-// Compares the turning of the odometry with the gyro: a delay of the inertial stamps shows.
+// The fusion allows for a delay of the inertial stamps that it has found; what is known beforehand
+// is better.
 void Vehicle::Graph::look_at_imu_delay(Health& health) {
-  constexpr double harmless = 0.02;  // s: a third of a degree in the sharpest bend
+  constexpr double harmless = 20.0;  // ms: a third of a degree in the sharpest bend
   constexpr double certain = 5.0;    // sigmas
-  const fusion::DelayEstimate estimate = fusion->filter_report().status.imu_delay;
-  if (!estimate.known()) return;
-  const double delay = estimate.delay();
-  if (std::abs(delay) < std::max(harmless, certain * estimate.sigma())) return;
-  const char* instead =
-      delay > 0.0 ? "late against odometry; add that to" : "early against odometry; take that off";
+  const fusion::SelfCalibrations& all = fusion->filter_report().calibration;
+  const auto delay = std::ranges::find(all, "imu_delay", &fusion::CalibratedProperty::key);
+  if (!delay->observed() || std::abs(delay->value) < std::max(harmless, certain * delay->sigma)) {
+    return;
+  }
+  const char* instead = delay->value > 0.0 ? "late against odometry; add that to"
+                                           : "early against odometry; take that off";
   health.degraded.push_back(
       fmt::format("imu: its stamps are {:.0f} +- {:.0f} ms {} delay of [vehicle.imu]",
-                  1e3 * std::abs(delay), 1e3 * estimate.sigma(), instead));
+                  std::abs(delay->value), delay->sigma, instead));
 }
 
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {

@@ -27,7 +27,6 @@ struct VehicleReport {
   Deadlines deadlines;
   Health health;
   std::vector<Naming> named;             // of sensors, in data time
-  fusion::DelayEstimate imu_delay;       // left in the inertial stamps, against odometry
   fusion::SelfCalibrations calibration;  // what the filter has estimated of the vehicle
   fusion::PlaceUse place{};              // what became of the last place
   std::optional<fusion::LastPlace> here;

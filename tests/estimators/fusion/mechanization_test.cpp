@@ -23,6 +23,8 @@ InertialInput some_input(bool inertial = true) {
     input.forward_force = 1.4;
     input.yaw_rate = 0.6;
     input.unseen_change = 1e-6;
+    input.change.yaw_rate = 1.5;
+    input.change.specific_force_forward = -6.0;
   }
   return input;
 }
@@ -34,6 +36,9 @@ InertialInput full_input() {
   input.left_force = 3.1;
   input.roll_rate = -0.2;
   input.pitch_rate = 0.15;
+  input.change.specific_force_left = 4.0;
+  input.change.roll_rate = -0.8;
+  input.change.pitch_rate = 0.6;
   return input;
 }
 

@@ -42,6 +42,7 @@ inline fusion::StateVector busy_state() {
   x[pitch_gyro_bias] = 3e-3;
   x[unit_course] = 0.03;
   x[up_bias] = 0.1;
+  x[imu_delay] = 0.04;
   x[climb_offset] = 0.012;
   x[odometry_course] = -0.02;
   x[odometry_left] = -0.2;

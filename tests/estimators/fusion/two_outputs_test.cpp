@@ -276,6 +276,27 @@ TEST_F(Misdescribed, ADriveOnAKnownAxleTeachesNothingWhileItGoesStraight) {
   EXPECT_FALSE(find(filter, "rear axle").observed());
 }
 
+TEST_F(Misdescribed, PosesOfTheDescribedAxesAreRightFromTheFirstOn) {
+  ReducedImuFilter filter(configured("GNSS+VO-RI"), test_origin());
+  const std::vector<FusedState> out = states(filter, measurements());
+  ASSERT_GT(out.size(), 500u);
+  const auto described = [](const FusedState& s) {
+    return odom_pose(s) * s.mount.T_body_described();
+  };
+  const auto true_pose = [&](const FusedState& s) {
+    return drive_.pose(to_seconds(s.stamp - SyntheticDrive::at(0.0))) * T_vehicle_body_;
+  };
+  EXPECT_NEAR(out.back().mount.course, radians(2.0), radians(0.2));
+  const FusedState& to = out.back();
+  for (const std::size_t from : {0u, 1u, 3u, 10u, 100u}) {
+    const Eigen::Isometry3d moved = described(out[from]).inverse() * described(to);
+    const Eigen::Isometry3d truth = true_pose(out[from]).inverse() * true_pose(to);
+    EXPECT_LT((moved.translation() - truth.translation()).norm(),
+              0.005 * truth.translation().norm())
+        << from;
+  }
+}
+
 TEST_F(Misdescribed, TheFrameOfOdometryIsAsGoodAsOdometry) {
   ReducedImuFilter filter(configured("GNSS+VO-RI"), test_origin());
   const std::vector<FusedState> out = states(filter, measurements());
