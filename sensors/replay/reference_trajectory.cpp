@@ -18,19 +18,37 @@ ReferenceTrajectory::ReferenceTrajectory(const std::vector<ReferencePose>& rows,
                                          const ReferenceTrajectoryParameters& parameters)
     : max_extrapolation_(from_seconds(parameters.max_extrapolation)),
       max_gap_(from_seconds(parameters.max_gap)) {
-  if (rows.size() < 2) {
-    throw std::invalid_argument("reference trajectory: needs at least two rows, has " +
-                                std::to_string(rows.size()));
-  }
   rows_.reserve(rows.size());
   for (const ReferencePose& row : rows) {
-    if (!rows_.empty() && row.stamp <= rows_.back().stamp) {
-      throw std::invalid_argument("reference trajectory: time does not increase at " +
-                                  format_time(row.stamp));
-    }
-    rows_.push_back({row.stamp, frame.to_enu(row.position),
-                     Eigen::Quaterniond(rotation_enu_body(row.attitude)), row.position_accuracy});
+    add({row.stamp, frame.to_enu(row.position), Eigen::Quaterniond(rotation_enu_body(row.attitude)),
+         row.position_accuracy});
   }
+  check_size();
+}
+
+ReferenceTrajectory::ReferenceTrajectory(const std::vector<Time>& stamps,
+                                         const std::vector<Eigen::Isometry3d>& poses,
+                                         const ReferenceTrajectoryParameters& parameters)
+    : max_extrapolation_(from_seconds(parameters.max_extrapolation)),
+      max_gap_(from_seconds(parameters.max_gap)) {
+  rows_.reserve(poses.size());
+  for (std::size_t i = 0; i < std::min(stamps.size(), poses.size()); ++i)
+    add({stamps[i], poses[i].translation(), Eigen::Quaterniond(poses[i].linear()), 0.0});
+  check_size();
+}
+
+void ReferenceTrajectory::add(const Row& row) {
+  if (!rows_.empty() && row.stamp <= rows_.back().stamp) {
+    throw std::invalid_argument("reference trajectory: time does not increase at " +
+                                format_time(row.stamp));
+  }
+  rows_.push_back(row);
+}
+
+void ReferenceTrajectory::check_size() const {
+  if (rows_.size() >= 2) return;
+  throw std::invalid_argument("reference trajectory: needs at least two rows, has " +
+                              std::to_string(rows_.size()));
 }
 
 const ReferenceTrajectory::Row& ReferenceTrajectory::row_after(Time stamp) const {

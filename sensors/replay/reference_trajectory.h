@@ -31,9 +31,13 @@ class ReferenceTrajectory {
   ReferenceTrajectory(const std::vector<ReferencePose>& rows, const LocalFrame& frame,
                       const ReferenceTrajectoryParameters& parameters = {});
 
-  // Returns T_enu_body in the local frame. Between two rows the position lies on a straight line
-  // and the attitude turns at a constant rate (slerp); at the ends the same motion is extrapolated.
-  // Returns nothing outside of that or inside a gap.
+  // The same of poses in a frame of their own, whose accuracy is not known (0).
+  ReferenceTrajectory(const std::vector<Time>& stamps, const std::vector<Eigen::Isometry3d>& poses,
+                      const ReferenceTrajectoryParameters& parameters = {});
+
+  // Returns T_enu_body in the local frame, or the poses' own. Between two rows the position lies on
+  // a straight line and the attitude turns at a constant rate (slerp); at the ends the same motion
+  // is extrapolated. Returns nothing outside of that or inside a gap.
   std::optional<Eigen::Isometry3d> pose(Time stamp) const;
 
   // m, the recorder's own estimate of the position's accuracy: the worse of the two neighbouring
@@ -47,6 +51,8 @@ class ReferenceTrajectory {
     Eigen::Quaterniond q_enu_body;
     double accuracy;  // m
   };
+  void add(const Row& row);
+  void check_size() const;
   // Returns the second of the two rows around the stamp; at the ends the two outermost rows are
   // used.
   const Row& row_after(Time stamp) const;

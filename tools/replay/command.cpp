@@ -97,6 +97,10 @@ void add_replay(CLI::App& app, Command& command, WritePage* write_page) {
              vehicle::fault_kinds() + " (runtime/vehicle/FAULTS.md)")
       ->allow_extra_args(false)
       ->check(parsed_by(vehicle::parse_fault, "FAULT"));
+  sub->add_option("--truth", options.truth,
+                  "Score odometry and both outputs, as ways of the left camera, against this truth "
+                  "with stamps (TUM, *.truth.csv) in place of the recording's reference")
+      ->check(CLI::ExistingFile);
   sub->add_option("--score-from", options.score_from,
                   "Score the drive from so many seconds into it; outages are scored as they are")
       ->check(number_from_zero());

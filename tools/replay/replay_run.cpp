@@ -67,6 +67,17 @@ match::Labels driven_roads(const ReplayOptions& options, const vehicle::Recordin
              : match::Labels{};
 }
 
+// Returns the way of the left camera that was asked for to score with.
+std::optional<sensors::ReferenceTrajectory> camera_truth(const std::filesystem::path& file) {
+  if (file.empty()) return std::nullopt;
+  const auto truth = evaluation::read_trajectory(file, evaluation::Role::truth);
+  if (truth.stamps.size() < 2) {
+    throw std::runtime_error("--truth " + file.string() +
+                             ": fewer than two poses with stamps; give a TUM file");
+  }
+  return sensors::ReferenceTrajectory(truth.stamps, truth.poses);
+}
+
 class Replay {
  public:
   explicit Replay(const ReplayOptions& options)
@@ -78,7 +89,8 @@ class Replay {
         end_(options.end > 0.0 ? recording_.first_stamp + from_seconds(options.end) : Time::max()),
         map_(load_road_map(config_.map, options.map_fault, driven_roads(options, recording_))),
         faults_(options.faults, recording_.first_stamp, recording_.calibration.stereo.fx),
-        output_(options, config_, "replay of " + drive_name(options)) {
+        output_(options, config_, "replay of " + drive_name(options)),
+        camera_truth_(camera_truth(options.truth)) {
     describe_car(config_, recording_.calibration);              // for the report and the snapshots
     config_.vehicle.imu.time.delay = config_.replay.imu_delay;  // as the recording was read
     if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
@@ -116,6 +128,7 @@ class Replay {
   std::shared_ptr<const vehicle::RoadMap> map_;
   vehicle::FaultInjection faults_;
   RunOutput output_;
+  std::optional<sensors::ReferenceTrajectory> camera_truth_;
   std::optional<vehicle::Snapshot> resumed_;
   Time cut_{};  // of the snapshot
   bool snapshot_taken_ = false;
@@ -234,7 +247,8 @@ ReplayResult Replay::result(PlaybackEnd end, const std::vector<ReferencePose>& r
                        to_seconds(cut_ - player_->vehicle().first()),
                        pass_->hashes_after.summary()};
   }
-  score(result, *pass_, recording_, reference, map_.get(), from_seconds(options_.score_from));
+  score(result, *pass_, recording_, reference, map_.get(),
+        camera_truth_ ? &*camera_truth_ : nullptr, from_seconds(options_.score_from));
   return result;
 }
 

@@ -39,7 +39,8 @@ struct ReplayOptions : RunOptions {
   std::vector<vehicle::Fault> faults;
   std::optional<match::MapFault> map_fault;
   std::optional<Property> misdescribed;
-  double score_from = 0.0;  // s into the drive
+  double score_from = 0.0;      // s into the drive
+  std::filesystem::path truth;  // of the left camera; empty: the recording's reference
   std::optional<SnapshotRequest> snapshot;
   std::filesystem::path resume;
   PlaybackOptions playback;

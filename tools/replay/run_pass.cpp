@@ -94,13 +94,13 @@ evaluation::StampedTrajectory TrajectoryCollector::poses(
   return trajectory;
 }
 
-std::optional<Accuracy> TrajectoryCollector::score(const Reference& reference,
+std::optional<Accuracy> TrajectoryCollector::score(const Reference& camera,
                                                    const Eigen::Isometry3d& T_body_cam) const {
   evaluation::Trajectory estimate, truth;
   for (const auto& [stamp, body] : poses_) {
-    if (const auto T_enu_body = reference(stamp)) {
+    if (const auto pose = camera(stamp)) {
       estimate.push_back(body * T_body_cam);
-      truth.push_back(*T_enu_body * T_body_cam);
+      truth.push_back(*pose);
     }
   }
   if (estimate.size() < 2) return std::nullopt;
@@ -160,7 +160,7 @@ ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report
 
 void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,
            const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map,
-           Duration after) {
+           const sensors::ReferenceTrajectory* camera_truth, Duration after) {
   const Time from = after > Duration::zero() ? recording.first_stamp + after : Time::min();
   result.begin = recording.first_stamp;
   result.images = recording.images;
@@ -172,16 +172,27 @@ void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& 
     result.links = links_score(pass, *recording.driven_links, map->network, from);
   result.peer_reference = recording.peer_reference;
   result.outage_ends = outage_ends(pass.track, recording, reference);
+  const Eigen::Isometry3d& T_body_cam = recording.calibration.stereo.T_body_cam;
+  const auto score_cameras = [&](const TrajectoryCollector::Reference& pose) {
+    const auto accuracy = [&](const TrajectoryCollector& trajectory) {
+      return trajectory.score([&](Time t) { return t < from ? std::nullopt : pose(t); },
+                              T_body_cam);
+    };
+    result.vo = accuracy(pass.odometry);
+    result.lidar = accuracy(pass.lidar);
+    result.fused = accuracy(pass.fused);
+    result.odom = accuracy(pass.odom);
+  };
+  if (camera_truth != nullptr) score_cameras([&](Time t) { return camera_truth->pose(t); });
   if (reference.size() < 2) return;
   const sensors::ReferenceTrajectory truth(reference, LocalFrame(reference.front().position));
-  const auto accuracy = [&](const TrajectoryCollector& trajectory) {
-    return trajectory.score([&](Time t) { return t < from ? std::nullopt : truth.pose(t); },
-                            recording.calibration.stereo.T_body_cam);
-  };
-  result.vo = accuracy(pass.odometry);
-  result.lidar = accuracy(pass.lidar);
-  result.fused = accuracy(pass.fused);
-  result.odom = accuracy(pass.odom);
+  if (camera_truth == nullptr) {
+    score_cameras([&](Time t) {
+      auto pose = truth.pose(t);
+      if (pose) *pose = *pose * T_body_cam;
+      return pose;
+    });
+  }
   Time named = Time::max();
   for (const vehicle::Naming& naming : result.vehicle.named) named = std::min(named, naming.at);
   result.navigation = fusion_score::score(pass.track, reference, recording.outages,

@@ -16,6 +16,7 @@
 #include "runtime/vehicle/output/log_recorder.h"
 #include "runtime/vehicle/output/publisher.h"
 #include "runtime/vehicle/stages/road_map.h"
+#include "sensors/replay/reference_trajectory.h"
 #include "tools/evaluate/motion_chain.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/match/match_score.h"
@@ -38,11 +39,10 @@ class TrajectoryCollector {
   evaluation::StampedTrajectory poses(
       const Eigen::Isometry3d& T_body_point = Eigen::Isometry3d::Identity()) const;
 
-  // Scores the poses of the left camera where the reference has a pose of the body. Returns nothing
-  // if these are fewer than two.
+  // Scores the poses of the left camera where it has a true one. Returns nothing if these are fewer
+  // than two.
   using Reference = std::function<std::optional<Eigen::Isometry3d>(Time)>;
-  std::optional<Accuracy> score(const Reference& reference,
-                                const Eigen::Isometry3d& T_body_cam) const;
+  std::optional<Accuracy> score(const Reference& camera, const Eigen::Isometry3d& T_body_cam) const;
 
  private:
   evaluation::MotionChain chain_;
@@ -91,10 +91,12 @@ ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report
 constexpr double far_from_map = 5'000.0;  // m
 
 // Adds what the recording contains, the accuracy against `reference`, the links against those
-// driven, and whether the run was on its map, to the result. `map` is nullptr without a map. What
-// comes less than `after` the drive's begin is not scored.
+// driven, and whether the run was on its map, to the result. `map` is nullptr without a map. Ways
+// of the left camera are scored against `camera_truth`; without one (nullptr) against the reference
+// of the body and the described place of the camera. What comes less than `after` the drive's begin
+// is not scored.
 void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,
            const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map,
-           Duration after = {});
+           const sensors::ReferenceTrajectory* camera_truth = nullptr, Duration after = {});
 
 }  // namespace maploop::tools

@@ -100,7 +100,7 @@ Driven driven(const std::string& sequence, MapMode mode, std::optional<MapFault>
   RunPass pass;
   const RecordingRun run = run_recording(std::move(recording), config, {}, pass.observer(), roads);
   Driven d{result_of(pass, run.report), moments_of(pass.track, run)};
-  score(d.result, pass, run.recording, run.reference, roads.get(), with_gnss);
+  score(d.result, pass, run.recording, run.reference, roads.get(), nullptr, with_gnss);
   return d;
 }
 
