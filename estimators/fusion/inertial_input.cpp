@@ -98,7 +98,8 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
     const double gap = to_seconds(b.stamp - a.stamp);
     const double weight = to_seconds((from - a.stamp) + (to - a.stamp)) / (2.0 * gap);
     interpolate(a, b, weight, parameters, input);
-    input.change = change(a, b, gap);
+    // How the rates change within a silence is not known.
+    if (gap <= parameters.imu_hold) input.change = change(a, b, gap);
     input.unseen_change = gap * gap * gap * input.duration / 64.0;  // (1) of METHOD.md
     return input;
   }

@@ -351,7 +351,9 @@ TEST(ImuDelay, LeftInTheStampsIsFoundAgainstOdometryAndAllowedFor) {
   const SyntheticDrive drive(town(), 43.0, test_origin());
   double azimuth_without = 0.0;
   for (const double left : {0.0, 0.03, -0.02}) {
-    ReducedImuFilter filter(configured("VO-RI"), test_origin());
+    FusionParameters parameters = configured("VO-RI");
+    parameters.imu_delay_sigma = 0.03;
+    ReducedImuFilter filter(parameters, test_origin());
     std::vector<ImuSample> imu = drive.imu(100.0);
     for (ImuSample& s : imu) {
       s.stamp += from_seconds(left);
