@@ -7,21 +7,27 @@ ParameterTable<GroundParameters> parameter_table(const GroundParameters&) {
   using P = GroundParameters;
   constexpr double any_sigma = 1e4;  // m
   constexpr double smallest = 1e-6;  // of what is divided by
+  constexpr DataChoice choice{"simulated canyons, seeds 1 to 6",
+                              "among a handful of sets by the errors, less than what fits these "
+                              "densely built towns best",
+                              "PPP between houses with heights, seeds 1 to 6"};
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"antenna_height", &P::antenna_height, -10.0, 100.0, "m", usual,
        "Height of the antenna above the road."},
       {"surface", &P::surface, -100.0, 100.0, "m", expert,
        "How much higher than the road the model is on average: radar sees roofs and trees. 0 for a "
-       "model of the ground itself."},
+       "model of the ground itself.",
+       choice},
       {"datum_sigma", &P::datum_sigma, smallest, any_sigma, "m", expert,
        "Standard deviation of what the model is too high or too low by everywhere near: its long "
-       "waves (SRTM: 1.6 m), the geoid, and how densely the place is built up."},
+       "waves (SRTM: 1.6 m), the geoid, and how densely the place is built up.",
+       choice},
       {"no_geoid_sigma", &P::no_geoid_sigma, smallest, any_sigma, "m", expert,
        "The same where there is no grid of the geoid."},
       {"error_sigma", &P::error_sigma, smallest, any_sigma, "m", expert,
-       "Standard deviation of the model's error that changes along the way."},
+       "Standard deviation of the model's error that changes along the way.", choice},
       {"error_length", &P::error_length, smallest, 1e6, "m", expert,
-       "Way over which that error is correlated."},
+       "Way over which that error is correlated.", choice},
       {"noise", &P::noise, smallest, any_sigma, "m", expert,
        "Standard deviation of what is new at each epoch."},
       {"slope_sigma", &P::slope_sigma, 0.0, 10.0, "m/m", expert,

@@ -62,7 +62,7 @@ struct PppSolution {
   double running_for = 0.0;                             // s since the filter started or restarted
   std::uint64_t restarts = 0;                           // number of restarts
   int satellites_used = 0;
-  HeightUse height_use = HeightUse::no_model;  // of the ground's height
+  HeightUse height_use = HeightUse::not_asked;  // of the ground's height
   IntegerReport integers;
   std::vector<SatelliteReport> satellites;  // all that were measured
 };

@@ -9,7 +9,7 @@ namespace maploop::ppp {
 
 enum class HeightUse : std::uint8_t {
   used,
-  no_model,    // none was given
+  not_asked,   // no model was given, or there is no position
   no_tile,     // neither the tiles nor the geoid's grid contain the place
   no_height,   // the tile is void there
   unreadable,  // the tile is damaged
@@ -19,7 +19,7 @@ enum class HeightUse : std::uint8_t {
 
 constexpr auto names_of(HeightUse) {
   return names_up_to<HeightUse::gated>(
-      {"used", "no model", "outside the tiles", "void in the tile", "tile not readable",
+      {"used", "no position", "outside the tiles", "void in the tile", "tile not readable",
        "on a bridge, in a tunnel or on another level", "too far from the filter's height"});
 }
 

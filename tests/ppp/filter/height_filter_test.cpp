@@ -66,7 +66,7 @@ double road() {
   const Drive drive;
   MapAidedFilter filter = drive.filter();
   for (std::size_t i = 0; i < epochs; ++i) filter.process(drive.epoch(i));
-  EXPECT_EQ(filter.solution().height_use, HeightUse::no_model);
+  EXPECT_EQ(filter.solution().height_use, HeightUse::not_asked);
   return height_of(filter.solution());
 }
 

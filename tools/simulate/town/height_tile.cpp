@@ -16,7 +16,9 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr int side = 1201;  // samples
+constexpr int side = 1201;               // samples
+constexpr long no_height = -32768;       // of a void sample
+constexpr double surroundings = 3000.0;  // m of ground around what is built up; the rest is void
 
 // An error that is the same everywhere, and two that change over the ground: sums of waves in
 // random directions.
@@ -87,6 +89,12 @@ double seen_from_above(const RayScene& scene, const Eigen::Vector2d& middle) {
   return count > 0 ? sum / count : 0.0;
 }
 
+void append_big_endian(std::string& bytes, long height) {
+  const auto value = static_cast<std::uint16_t>(height);
+  bytes += static_cast<char>(value >> 8U);
+  bytes += static_cast<char>(value & 0xffU);
+}
+
 }  // namespace
 
 void write_height_tile(const std::filesystem::path& folder, const GroundSetting& setting) {
@@ -96,6 +104,10 @@ void write_height_tile(const std::filesystem::path& folder, const GroundSetting&
   const Geodetic& origin = setting.frame.origin();
   const int south = static_cast<int>(std::floor(degrees(origin.latitude)));
   const int west = static_cast<int>(std::floor(degrees(origin.longitude)));
+  const auto within = [&](const Eigen::Vector2d& p, double margin) {
+    return (p.array() > setting.least.array() - margin).all() &&
+           (p.array() < setting.most.array() + margin).all();
+  };
   std::string bytes;
   bytes.reserve(2 * side * side);
   for (int row = 0; row < side; ++row) {
@@ -104,13 +116,13 @@ void write_height_tile(const std::filesystem::path& folder, const GroundSetting&
       const double longitude = west + column / (side - 1.0);
       const Eigen::Vector2d p =
           setting.frame.to_enu({radians(latitude), radians(longitude), origin.height}).head<2>();
-      const bool built =
-          (p.array() > setting.least.array()).all() && (p.array() < setting.most.array()).all();
-      const double up = built ? seen_from_above(scene, p) : setting.terrain.height(p);
-      const auto height = static_cast<std::int16_t>(
-          std::lround(origin.height - geoid.at(latitude, longitude).value() + up + error.at(p)));
-      bytes += static_cast<char>(static_cast<std::uint16_t>(height) >> 8U);
-      bytes += static_cast<char>(static_cast<std::uint16_t>(height) & 0xffU);
+      if (!within(p, surroundings)) {
+        append_big_endian(bytes, no_height);
+        continue;
+      }
+      const double up = within(p, 0.0) ? seen_from_above(scene, p) : setting.terrain.height(p);
+      append_big_endian(bytes, std::lround(origin.height - geoid.at(latitude, longitude).value() +
+                                           up + error.at(p)));
     }
   }
   std::filesystem::create_directories(folder);
