@@ -47,6 +47,7 @@ void PppFilter::reset() {
   levels_.begin(1.0);
   clocks_.reset();
   started_ = false;
+  off_ground_until_ = {};
   bad_epochs_ = 0;
   restarts_ = 0;
   integers_.reset();
