@@ -2,7 +2,6 @@
 // Topography", 2015).
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,7 +14,10 @@ namespace maploop::ppp {
 // The south-western corner, degrees.
 struct TileCorner {
   int latitude = 0, longitude = 0;
-  auto operator<=>(const TileCorner&) const = default;
+  bool operator==(const TileCorner&) const = default;
+  bool operator<(const TileCorner& other) const {
+    return latitude != other.latitude ? latitude < other.latitude : longitude < other.longitude;
+  }
 };
 
 // Returns the corner that a file's name states, such as N49E011.hgt, N49E011.SRTMGL1.hgt.zip or
