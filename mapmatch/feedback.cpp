@@ -161,6 +161,8 @@ MapFeedback Feedback::decide(const LinkMatch& match, const VehicleFix& fix) {
     return out;
   }
   out.probability = match.probability;
+  const Road& road = network_->road_at(network_->at(match.link, match.along).vertex);
+  out.off_ground = road.bridge || road.tunnel || road.layer != 0;
   if (!std::isfinite(fix.azimuth)) {  // the vehicle stands or moves too slowly
     out.reason = FeedbackReason::too_slow;
     return out;

@@ -39,10 +39,11 @@ constexpr auto names_of(FeedbackReason) {
 // and the map's error. `stamp` is the fix's.
 struct MapFeedback : Sample {
   FeedbackReason reason = FeedbackReason::no_fix;
-  bool position = false;  // the line is fed back
-  bool azimuth = false;   // its direction is fed back
-  bool reset = false;     // hard reset: position and azimuth become the matched ones
-  bool new_road = false;  // the first on a road other than the previous one: another lane offset
+  bool position = false;    // the line is fed back
+  bool azimuth = false;     // its direction is fed back
+  bool reset = false;       // hard reset: position and azimuth become the matched ones
+  bool new_road = false;    // the first on a road other than the previous one: another lane offset
+  bool off_ground = false;  // the matched road is a bridge, in a tunnel or on another level
 
   Geodetic point;              // beside the matched point, in the lane; its height is unused
   double link_azimuth = 0.0;   // rad, as driven
@@ -53,14 +54,19 @@ struct MapFeedback : Sample {
   double probability = 0.0;    // P(link)
 
   void archive(auto& ar) {
-    ar(static_cast<Sample&>(*this), reason, position, azimuth, reset, new_road, point, link_azimuth,
-       cross_track, cross_sigma, lane_sigma, azimuth_sigma, probability);
+    ar(static_cast<Sample&>(*this), reason, position, azimuth, reset, new_road, off_ground, point,
+       link_azimuth, cross_track, cross_sigma, lane_sigma, azimuth_sigma, probability);
   }
 };
 
 // Returns the unit vector (east, north) to the right of the line.
 inline Eigen::Vector2d right_of_line(const MapFeedback& f) {
   return {std::cos(f.link_azimuth), -std::sin(f.link_azimuth)};
+}
+
+// Returns whether a filter that is fed back to learns anything from it.
+inline bool says_something(const MapFeedback& f) {
+  return f.position || f.azimuth || f.reason == FeedbackReason::inconsistent;
 }
 
 // Returns whether all values that a filter uses are finite.

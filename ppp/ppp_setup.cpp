@@ -109,6 +109,7 @@ void PppSetup::fill_inputs(const GnssFiles& files, const SetupOptions& options,
         nearest_station(files.ocean_loading, *header.approximate_position, header.marker);
   }
   choose_ionosphere();
+  read_heights(options);
 }
 
 // States what keeps ambiguities real numbers, and which of several antennas counts.
@@ -168,13 +169,24 @@ void PppSetup::choose_ionosphere() {
   if (!lack.empty()) missing_models_.push_back(lack);
 }
 
+void PppSetup::read_heights(const SetupOptions& options) {
+  if (options.heights.empty()) return;
+  heights_ = std::make_unique<HeightModel>(options.heights, options.geoid);
+  if (heights_->above_ellipsoid()) return;
+  missing_models_.push_back(
+      std::string(
+          "no grid of the geoid: what the ground's heights count from is estimated; install "
+          "Debian's proj-data (") +
+      HeightModel::usual_geoid + "), or set [ppp] geoid");
+}
+
 PppFilter PppSetup::make_filter(const CorrectedEphemeris* received) const {
   RangeInputs inputs = inputs_;
   if (received != nullptr) {
     inputs.ephemeris = received;
     inputs.ionosphere = &received->ionosphere();
   }
-  return {parameters_, inputs, earth_};
+  return {parameters_, inputs, earth_, heights_.get()};
 }
 
 MapAidedFilter PppSetup::make_map_aided_filter(const CorrectedEphemeris* received) const {

@@ -8,6 +8,7 @@
 
 #include "ppp/filter/map_aided_filter.h"
 #include "ppp/gnss_files.h"
+#include "ppp/heights/height_model.h"
 #include "ppp/products/broadcast.h"
 #include "ppp/products/corrected.h"
 #include "ppp/products/precise.h"
@@ -18,6 +19,8 @@ struct SetupOptions {
   PppParameters parameters;
   Models models;
   bool broadcast = false;  // uses broadcast orbits even if precise ones are given
+  std::string heights;     // tile or folder of tiles; empty: the ground's height is not used
+  std::string geoid;       // as of HeightModel
 };
 
 // A LiveReceiver is one whose stream is read; it describes what the header of a file would give.
@@ -57,12 +60,15 @@ class PppSetup {
   bool never_converges() const { return one_frequency_ && !precise() && !live(); }
   // Lists what the models lack, such as "no calibration of antenna X".
   const std::vector<std::string>& missing_models() const { return missing_models_; }
+  // Returns nullptr without heights.
+  const HeightModel* heights() const { return heights_.get(); }
 
  private:
   void choose_products(const GnssFiles& files, const SetupOptions& options);
   void fill_inputs(const GnssFiles& files, const SetupOptions& options,
                    const ObservationHeader& header);
   void choose_ionosphere();
+  void read_heights(const SetupOptions& options);
   void note_lacks_of_integers(const GnssFiles& files);
 
   PppParameters parameters_;
@@ -70,6 +76,7 @@ class PppSetup {
   std::unique_ptr<BroadcastEphemeris> broadcast_;
   std::unique_ptr<PreciseEphemeris> precise_;
   RangeInputs inputs_;
+  std::unique_ptr<HeightModel> heights_;
   Earth earth_;
   std::vector<std::string> missing_models_;
   bool one_frequency_ = false;

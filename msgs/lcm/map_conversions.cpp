@@ -97,6 +97,7 @@ void convert(auto copy, Is<MapFeedback> auto& feedback, auto& m) {
   copy(feedback.azimuth, m.azimuth);
   copy(feedback.reset, m.reset);
   copy(feedback.new_road, m.new_road);
+  copy(feedback.off_ground, m.off_ground);
   copy.place(feedback.point, m.latitude, m.longitude, m.height);
   copy(feedback.link_azimuth, m.link_azimuth);
   copy(feedback.cross_track, m.cross_track);

@@ -20,7 +20,7 @@ void keep(FilterState& state, int index, double sigma, double share) {
   }
 }
 
-// Adds a vector of the motion to the three entries at `index`, by (25) of METHOD.md without noise.
+// Adds a vector of the motion to the three entries at `index`, by (27) of METHOD.md without noise.
 void add(FilterState& state, int index, const Vector3d& of_motion, const Vector3d& up) {
   auto x = state.x();
   auto P = state.P();

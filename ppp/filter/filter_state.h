@@ -48,7 +48,9 @@ class FilterState {
   // Only a carried motion observes these: its direction is too far to the left, and it is too long.
   static constexpr int carried_turn = 17;   // rad
   static constexpr int carried_scale = 18;  // 1
-  static constexpr int system_offset = 19;  // m, of each system's clock against the reference's
+  // Only a model of the ground's height observes these: what it is too low by everywhere, and here.
+  static constexpr int ground_datum = 19, ground_error = 20;  // m
+  static constexpr int system_offset = 21;  // m, of each system's clock against the reference's
   static constexpr int fixed = system_offset + system_count;
   static constexpr int max_entries = 160;
   static constexpr int capacity = fixed + max_entries;

@@ -28,6 +28,12 @@ class MapAidedFilter {
   // Applies feedback to the state of the last epoch; it shows in the next solution.
   MapUse add(const MapFeedback& feedback);
 
+  // Works as PppFilter::note_road(), for both filters: it says nothing of the position.
+  void note_road(const MapFeedback& feedback) {
+    map_free_.note_road(feedback);
+    if (aiding_) aided_.note_road(feedback);
+  }
+
   const PppSolution& solution() const { return aided() ? aided_.solution() : map_free_.solution(); }
   const PppSolution& map_free() const { return map_free_.solution(); }
   const PppParameters& parameters() const { return parameters_; }

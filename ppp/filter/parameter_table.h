@@ -7,5 +7,6 @@
 namespace maploop::ppp {
 
 ParameterTable<PppParameters> parameter_table(const PppParameters&);
+ParameterTable<GroundParameters> parameter_table(const GroundParameters&);  // [ppp.ground]
 
 }  // namespace maploop::ppp

@@ -14,6 +14,19 @@ constexpr std::array<std::string_view, 2> names_of(Motion) {
   return {"static", "kinematic"};
 }
 
+// How the height of the ground is used; ground_parameter_table.cpp describes each.
+struct GroundParameters {
+  double antenna_height = 1.7;   // m
+  double surface = 3.0;          // m
+  double datum_sigma = 4.0;      // m
+  double no_geoid_sigma = 30.0;  // m
+  double error_sigma = 3.0;      // m
+  double error_length = 300.0;   // m
+  double noise = 0.5;            // m
+  double slope_sigma = 0.05;
+  double gate = 9.0;
+};
+
 struct PppParameters {
   Motion motion = Motion::kinematic;
   std::string systems = "GREC";
@@ -118,6 +131,8 @@ struct PppParameters {
   double map_pause = 10.0;  // s
   int map_pause_doublings = 4;
   double map_trusted_again = 300.0;  // s
+
+  GroundParameters ground;
 };
 
 }  // namespace maploop::ppp

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "msgs/frames.h"
+#include "ppp/filter/height_update.h"
 #include "ppp/filter/row_report.h"
 #include "ppp/filter/signal_choice.h"
 #include "ppp/filter/single_point.h"
@@ -29,14 +30,16 @@ bool fits(const CarriedMotion& motion, double interval) {
 
 }  // namespace
 
-PppFilter::PppFilter(const PppParameters& parameters, const RangeInputs& inputs, Earth earth)
+PppFilter::PppFilter(const PppParameters& parameters, const RangeInputs& inputs, Earth earth,
+                     const HeightModel* heights)
     : parameters_(parameters),
       model_(inputs, std::move(earth)),
+      heights_(heights),
       unobstructed_cn0_(parameters),
       integers_(parameters),
       rows_(parameters),
       update_(parameters),
-      map_dx_(FilterState::capacity) {}
+      aid_dx_(FilterState::capacity) {}
 
 void PppFilter::reset() {
   state_.clear();
@@ -44,6 +47,7 @@ void PppFilter::reset() {
   levels_.begin(1.0);
   clocks_.reset();
   started_ = false;
+  off_ground_until_ = {};
   bad_epochs_ = 0;
   restarts_ = 0;
   integers_.reset();
@@ -61,6 +65,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch, const CarriedMotion* c
   if (carried != nullptr && !fits(*carried, interval)) carried = nullptr;
   if (interval != 0.0) predict_state(state_, interval, carried, model_.ephemeris(), parameters_);
   time_ = epoch.time;
+  use_height();
   model_.begin(time_, state_.x().segment<3>(S::position));
   std::vector<Tracked>& tracked =
       satellites_.track(measured_, time_, interval, model_, levels_, parameters_, state_, reports);
@@ -121,6 +126,13 @@ void PppFilter::set_zenith_ionosphere(const std::vector<Tracked>& tracked) {
   for (const int i : {S::ionosphere_north, S::ionosphere_east}) {
     state_.set(i, 0.0, parameters_.ionosphere_gradient_share * sigma);
   }
+}
+
+void PppFilter::use_height() {
+  if (heights_ == nullptr) return;
+  solution_.height_use = time_ <= off_ground_until_
+                             ? HeightUse::off_ground
+                             : apply_height(state_, *heights_, parameters_.ground, aid_dx_);
 }
 
 void PppFilter::learn_strengths(const std::vector<Tracked>& tracked) {
@@ -185,11 +197,16 @@ void PppFilter::restart() {
                       " epochs measurements have disagreed with the position";
 }
 
+void PppFilter::note_road(const MapFeedback& feedback) {
+  constexpr Duration lasts = std::chrono::seconds(2);  // an epoch of 1 Hz and its delay
+  off_ground_until_ = feedback.off_ground ? from_utc(feedback.stamp) + lasts : GpsTime{};
+}
+
 MapUse PppFilter::add(const MapFeedback& feedback) {
   if (solution_.status == PppStatus::none) return MapUse::no_position;
   const double since = to_seconds(feedback.stamp - to_utc(time_));
   if (!(std::abs(since) <= parameters_.map_reach)) return MapUse::not_of_this_epoch;
-  return apply_map(state_, feedback, since, level_covariance(), parameters_, map_dx_);
+  return apply_map(state_, feedback, since, level_covariance(), parameters_, aid_dx_);
 }
 
 Eigen::Matrix2d PppFilter::level_covariance() const {

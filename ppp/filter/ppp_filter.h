@@ -15,13 +15,16 @@
 #include "ppp/filter/robust_update.h"
 #include "ppp/filter/satellite_tracker.h"
 #include "ppp/filter/unobstructed_cn0.h"
+#include "ppp/heights/height_model.h"
 #include "ppp/integers/integer_fix.h"
 
 namespace maploop::ppp {
 
 class PppFilter {
  public:
-  PppFilter(const PppParameters& parameters, const RangeInputs& inputs, Earth earth);
+  // `heights` must outlive the filter; nullptr: the height of the ground is not known.
+  PppFilter(const PppParameters& parameters, const RangeInputs& inputs, Earth earth,
+            const HeightModel* heights = nullptr);
 
   // Epochs must come in the order of time, or all in the opposite order (smoothing.h). The solution
   // is valid until the next call. The work is bounded by the number of satellites: the rows of an
@@ -32,6 +35,9 @@ class PppFilter {
   // Applies the road of a feedback, at the feedback's stamp, to the state of the last epoch. If the
   // feedback is refused, the state keeps what it had.
   MapUse add(const MapFeedback& feedback);
+  // Takes from the road that is matched whether it is on the ground. The next epochs' heights of
+  // the ground are not used if it is not.
+  void note_road(const MapFeedback& feedback);
   // Both are of the last epoch; the covariance is that of the position, east and north, m^2.
   const PppSolution& solution() const { return solution_; }
   Eigen::Matrix2d level_covariance() const;
@@ -48,8 +54,9 @@ class PppFilter {
   // parameters, and the filter then stays as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 11);
+    ar.section("ppp", 12);
     archive_same_parameters(ar, parameters_);
+    archive_same_parameters(ar, parameters_.ground);
     if constexpr (Archive::loading) {
       PppFilter loaded = *this;
       loaded.archive_state(ar);
@@ -63,12 +70,13 @@ class PppFilter {
   template <class Archive>
   void archive_state(Archive& ar) {
     ar(state_, satellites_, levels_, unobstructed_cn0_, clock_steps_, clocks_, started_,
-       started_at_, time_, bad_epochs_, restarts_, integers_, solution_.status, solution_.position,
-       solution_.covariance, solution_.restarts);
+       started_at_, time_, off_ground_until_, bad_epochs_, restarts_, integers_, solution_.status,
+       solution_.position, solution_.covariance, solution_.restarts);
   }
 
   void begin_solution(GpsTime t);
   bool start(const std::vector<Measurement>& measured, GpsTime t);
+  void use_height();
   void learn_strengths(const std::vector<Tracked>& tracked);
   void set_zenith_ionosphere(const std::vector<Tracked>& tracked);
   bool update(const std::vector<Tracked>& tracked);
@@ -77,6 +85,7 @@ class PppFilter {
 
   PppParameters parameters_;
   RangeModel model_;
+  const HeightModel* heights_;
   FilterState state_;
   SatelliteTracker satellites_;
   CodeLevels levels_;
@@ -85,6 +94,7 @@ class PppFilter {
   ReceiverClocks clocks_;
   bool started_ = false;
   GpsTime started_at_{}, time_{};
+  GpsTime off_ground_until_{};
   int bad_epochs_ = 0;  // number of epochs in a row whose measurements disagree with the position
   std::uint64_t restarts_ = 0;
   IntegerFix integers_;
@@ -94,7 +104,7 @@ class PppFilter {
   std::vector<Measurement> measured_;
   EpochRows rows_;
   RobustUpdate update_;
-  Eigen::VectorXd map_dx_;
+  Eigen::VectorXd aid_dx_;
 };
 
 }  // namespace maploop::ppp

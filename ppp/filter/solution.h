@@ -9,6 +9,7 @@
 #include "msgs/named_enum.h"
 #include "msgs/ppp_state.h"
 #include "ppp/gps_time.h"
+#include "ppp/heights/height_use.h"
 #include "ppp/satellite.h"
 
 namespace maploop::ppp {
@@ -61,6 +62,7 @@ struct PppSolution {
   double running_for = 0.0;                             // s since the filter started or restarted
   std::uint64_t restarts = 0;                           // number of restarts
   int satellites_used = 0;
+  HeightUse height_use = HeightUse::not_asked;  // of the ground's height
   IntegerReport integers;
   std::vector<SatelliteReport> satellites;  // all that were measured
 };

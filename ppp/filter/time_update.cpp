@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ppp/filter/carry.h"
+#include "ppp/filter/height_update.h"
 #include "ppp/filter/map_update.h"
 #include "ppp/models/geodesy.h"
 
@@ -56,6 +57,7 @@ void predict_state(FilterState& state, double interval, const CarriedMotion* car
       move(state, interval, parameters);
     }
     predict_map_states(state, std::abs(interval), parameters);
+    predict_height_states(state, std::abs(interval), parameters.ground);
   }
   auto P = state.P();
   const auto walk = [&](int index, double density) {

@@ -117,7 +117,7 @@ const IntegerCandidate& IntegerFix::reference_of(const IntegerCandidate& c) cons
 double IntegerFix::difference(const FilterState& state, const IntegerCandidate& c) const {
   const IntegerCandidate& r = reference_of(c);
   const auto x = state.x();
-  // (23) of METHOD.md
+  // (25) of METHOD.md
   return (x[c.index] - x[r.index]) / c.length - c.wide_factor * (c.wide_lane - r.wide_lane);
 }
 

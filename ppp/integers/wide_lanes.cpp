@@ -18,7 +18,7 @@ void WideLanes::add(const Measurement& m, double code_variance, double inflation
   mean.samples += 1.0 / inflation;
 }
 
-// (24) of METHOD.md: the assumed noise counts as much as a few samples, the measured one as much as
+// (26) of METHOD.md: the assumed noise counts as much as a few samples, the measured one as much as
 // there are.
 double WideLanes::Mean::variance() const {
   constexpr double assumed = 2.0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "mapmatch/matcher.h"
 #include "msgs/frames.h"
@@ -195,6 +196,19 @@ TEST(Feedback, GoesOnFromAnArchiveWithTheSameBits) {
     }
     const MapFeedback b = resumed.decide(match, fixes[i]);
     EXPECT_EQ(maploop::testing::saved(a), maploop::testing::saved(b));
+  }
+}
+
+TEST(Feedback, TellsBridgesTunnelsAndOtherLevels) {
+  for (const char* where : {"ground", "bridge", "tunnel", "layer"}) {
+    Road road;
+    road.bridge = where == std::string_view("bridge");
+    road.tunnel = where == std::string_view("tunnel");
+    road.layer = where == std::string_view("layer") ? 1 : 0;
+    SmallMap map;
+    map.node(1, 0, 0).node(2, 600, 0).way(10, {1, 2}, road);
+    const auto all = feedbacks(map.network(), drive({{20, 0}, {520, 0}}, 10.0, 10.0, 1.5));
+    EXPECT_EQ(all.back().off_ground, where != std::string_view("ground")) << where;
   }
 }
 

@@ -32,7 +32,7 @@ struct PppOptions {
   std::optional<double> mask;
   bool broadcast = false, ecef = false;
   std::vector<std::string> settings;
-  std::filesystem::path map, config, pos, nmea, geojson, kml, residuals, html, json;
+  std::filesystem::path map, config, pos, nmea, geojson, kml, residuals, html, json, heights;
 };
 
 // "2020-06-25 01:00:00" of GPS time, or "01:00:00" of the first epoch's day, or seconds since then.
@@ -63,6 +63,7 @@ vehicle::VehicleConfig config_of(const PppOptions& options) {
   if (options.mask) p.filter.elevation_mask = *options.mask;
   validate_parameters(p.filter);
   p.broadcast |= options.broadcast;
+  if (!options.heights.empty()) p.heights = options.heights.string();
   set_map(config.map, options.map, options.map_mode);
   if (config.map.mode == vehicle::MapMode::hard_reset) {
     throw std::runtime_error("[map] mode = \"hard-reset\" is none of PPP: none, loose or tight");
@@ -83,6 +84,8 @@ gnss::RunOptions run_options(const PppOptions& options, const vehicle::PppConfig
   gnss::RunOptions run;
   run.parameters = config.filter;
   run.broadcast = config.broadcast;
+  run.heights = config.heights;
+  run.geoid = config.geoid;
   run.map = map;
   run.direction = options.direction.value_or(gnss::Direction::forward);
   if (map && run.direction != gnss::Direction::forward) {
@@ -227,6 +230,10 @@ void add_ppp(CLI::App& app, Command& command) {
              "tight: the road corrects the filter");
   add_choice(sub, "--map-fault", options->map_fault,
              "A map that is wrong, as of maploop replay; there are no labels of the roads driven");
+  sub->add_option("--heights", options->heights,
+                  "The height of the ground: a tile of SRTM (.hgt, .hgt.gz, .hgt.zip), or a folder "
+                  "of them")
+      ->check(CLI::ExistingPath);
   sub->add_flag("--broadcast", options->broadcast, "Broadcast orbits even where SP3 is given");
   sub->add_option("--truth", options->truth,
                   "X,Y,Z in metres, latitude,longitude,height, or a file: RTKLIB's .pos in XYZ, or "

@@ -18,6 +18,7 @@ MapStep MapLoop::close(ppp::MapAidedFilter& filter) {
     step.probability = match.probability;
   }
   step.feedback = feedback_.decide(match, fix);
+  filter.note_road(step.feedback);
   if (tight_) step.use = filter.add(step.feedback);
   return step;
 }

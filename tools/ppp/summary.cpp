@@ -86,6 +86,31 @@ std::string integer_line(const Solutions& solutions) {
   return line;
 }
 
+std::array<std::size_t, count_of<HeightUse>> height_uses(const Solutions& solutions) {
+  std::array<std::size_t, count_of<HeightUse>> counts{};
+  for (const PppSolution& s : solutions) ++counts[static_cast<std::size_t>(s.height_use)];
+  return counts;
+}
+
+std::string height_line(const Solutions& solutions) {
+  const auto counts = height_uses(solutions);
+  std::string line =
+      fmt::format("height of the ground used in {} of {} epochs", counts.front(), solutions.size());
+  for (std::size_t i = 1; i < counts.size(); ++i) {
+    if (counts[i] > 0)
+      line += fmt::format(", {} {}", counts[i], to_string(static_cast<HeightUse>(i)));
+  }
+  return line;
+}
+
+json heights_to_json(const Solutions& solutions) {
+  const auto counts = height_uses(solutions);
+  json all;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    all[std::string(to_string(static_cast<HeightUse>(i)))] = counts[i];
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, double integrity_risk,
@@ -110,6 +135,10 @@ std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, do
   }
   if (r.score) append_score(lines, r, integrity_risk);
   if (on_map) lines.push_back(map_line(run.filter(), r.matched, epochs));
+  if (const HeightModel* heights = run.setup().heights()) {
+    lines.push_back(height_line(r.solutions));
+    for (const auto& problem : heights->problems()) lines.push_back(problem);
+  }
   for (const auto& line : run.setup().missing_models()) lines.push_back(line);
   for (const auto& line : run.missing_products()) lines.push_back(line);
   for (const auto& o : files.observations) {
@@ -136,6 +165,7 @@ json to_json(const PppRun& run, const PppResult& r, bool on_map) {
   if (r.score) all["truth"] = scored(*r.score);
   if (on_map) all["map"] = to_json(run.filter(), r.matched);
   if (r.without_map) all["map"]["truth_without_map"] = scored(*r.without_map);
+  if (run.setup().heights() != nullptr) all["heights"] = heights_to_json(r.solutions);
   if (r.comparison) all["map"]["comparison"] = to_json(*r.comparison);
   return all;
 }

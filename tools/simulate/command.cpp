@@ -152,6 +152,9 @@ void add_simulate(CLI::App& app, Command& command) {
   sub->add_option("--gnss-rate", options->drive.gnss_rate, "Epochs of the GNSS receiver; Hz")
       ->check(number_in(0.1, 20.0))
       ->capture_default_str();
+  sub->add_flag(
+      "--heights", options->drive.heights,
+      "The height of the ground too, as SRTM would have it: a tile for maploop ppp --heights");
   sub->callback(
       [options, &command] { command = [options] { return simulate_command(*options); }; });
 }

@@ -16,6 +16,7 @@
 #include "tools/simulate/sensors/frame_writer.h"
 #include "tools/simulate/sensors/inertial_unit.h"
 #include "tools/simulate/sensors/simulated_car.h"
+#include "tools/simulate/town/height_tile.h"
 #include "tools/simulate/town/road_map.h"
 
 namespace maploop::simulate {
@@ -94,6 +95,10 @@ bool write_drive(const fs::path& out, const SimulationOptions& options,
   if (sensors.gnss) {
     write_gnss(sync, {drive.motion, drive.car.antenna, drive.traffic, *drive.world, drive.frame,
                       drive.start, options.seconds, options.gnss_rate, options.seed});
+  }
+  if (options.heights) {
+    write_height_tile(out / "heights", {*drive.world, drive.terrain, drive.index.least(),
+                                        drive.index.most(), drive.frame, options.seed});
   }
   write_road_map(out / "map.osm", drive.streets, drive.frame, options.seed);
   write_configuration(out / "vehicle.toml", description_of(drive.car), options);

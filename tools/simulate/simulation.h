@@ -37,6 +37,7 @@ struct SimulationOptions {
   // Writes scans as ranges instead of points, and images of 86 grey levels: 5 MB a second instead
   // of 25.
   bool compact = false;
+  bool heights = false;  // writes the height of the ground as well
   // OpenStreetMap file whose roads are driven; if empty, a town is generated. The route is the
   // shortest one through these places and continues from the last one randomly; without places all
   // of it is random.
@@ -54,6 +55,7 @@ using FrameDone = std::function<bool(std::size_t done, std::size_t all)>;
 //                      gnss_one_frequency (gnss/gnss_recording.h)
 //   town_extract       oxts at 100 Hz; a replay of it reads the other sensors from town_sync
 //   map.osm            the road map, with a mapper's errors (road_map.h)
+//   heights            a tile of the ground's height with the errors of SRTM, if `heights` is set
 //   vehicle.toml       configuration of a replay: the map, and all that there is to know of the car
 //   vehicle_rough.toml the same for a drawn car, with what its owner knows (rough_description())
 //   truth.tum          the left camera's poses, relative to its first one

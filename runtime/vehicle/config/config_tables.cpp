@@ -149,6 +149,13 @@ ParameterTable<PppConfig> parameter_table(const PppConfig&) {
        "Time from an epoch to its delivery by the receiver."},
       {"integrity_risk", &P::integrity_risk, 1e-12, 0.5, "1", usual,
        "Probability of an error at one epoch beyond its protection level."},
+      {"heights", &P::heights, usual,
+       "The height of the ground: a tile of SRTM (N49E011.hgt, .hgt.gz or .hgt.zip) or a folder of "
+       "them; the path starts from this file's folder. Empty: not used."},
+      {"geoid", &P::geoid, usual,
+       "What these heights count from: a grid of the geoid (GTX); the path starts from this file's "
+       "folder. Empty: EGM96, as SRTM, where Debian's proj-data is installed. \"none\": the "
+       "ellipsoid."},
   });
   return {"ppp",
           "Precise point positioning with the observations of a GNSS receiver (RINEX). Standard "

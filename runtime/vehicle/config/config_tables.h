@@ -37,8 +37,8 @@ void each_part(Config& config, Part&& part) {
   part(gnss_outage_table(), config);
   described(config.wheel);
   part(imu_table(), config);
-  described(config.stereo, config.lidar, config.ppp, config.ppp.filter, config.map, config.mapmatch,
-            config.feedback, config.guard, config.fusion);
+  described(config.stereo, config.lidar, config.ppp, config.ppp.filter, config.ppp.filter.ground,
+            config.map, config.mapmatch, config.feedback, config.guard, config.fusion);
 }
 
 }  // namespace maploop::vehicle

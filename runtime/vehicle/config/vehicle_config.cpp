@@ -93,6 +93,8 @@ void place_paths(const runtime::ConfigTable& root, const std::filesystem::path& 
   place_path(root, folder, "odometry_poses", "file", config.odometry_poses.file);
   place_path(root, folder, "map", "file", config.map.file);
   place_path(root, folder, "map", "rules", config.map.rules);
+  place_path(root, folder, "ppp", "heights", config.ppp.heights);
+  if (config.ppp.geoid != "none") place_path(root, folder, "ppp", "geoid", config.ppp.geoid);
   if (!root.table("ppp").has("products")) return;
   for (std::string& product : config.ppp.products) product = (folder / product).string();
 }

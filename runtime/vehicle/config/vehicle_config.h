@@ -47,6 +47,7 @@ struct PppConfig {
   bool broadcast = false;
   double latency = 0.1;  // s
   double integrity_risk = 1e-4;
+  std::string heights, geoid;
   ppp::PppParameters filter;
 };
 

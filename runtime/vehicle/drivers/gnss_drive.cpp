@@ -71,7 +71,9 @@ void GnssDrive::read_products(const fs::path& observations, const VehicleConfig&
   if (config.ppp.products.empty()) ppp::read_products(beside, files_, observations);
   for (const fs::path product : config.ppp.products) ppp::read_products(product, files_);
   setup_ = std::make_unique<ppp::PppSetup>(
-      files_, ppp::SetupOptions{config.ppp.filter, {}, config.ppp.broadcast});
+      files_,
+      ppp::SetupOptions{
+          config.ppp.filter, {}, config.ppp.broadcast, config.ppp.heights, config.ppp.geoid});
 }
 
 Time GnssDrive::first_stamp() const {

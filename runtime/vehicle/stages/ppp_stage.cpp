@@ -88,7 +88,7 @@ void PppStage::take(const GnssEpoch& epoch, const runtime::DataClock& clock,
 void PppStage::hold_feedback() {
   if (feedback_ == nullptr) return;
   while (const MapFeedback* f = feedback_->front()) {
-    if (f->position || f->azimuth || f->reason == FeedbackReason::inconsistent) held_.push_back(*f);
+    if (says_something(*f) || f->off_ground) held_.push_back(*f);
     feedback_->pop();
   }
 }
@@ -189,7 +189,8 @@ void PppStage::use_feedback(Time until) {
   std::erase_if(held_, [&](MapFeedback& f) {
     if (f.available > until || f.stamp > last_epoch_ + reach) return false;
     f.stamp += receiver_ahead_;
-    filter_.add(f);
+    filter_.note_road(f);
+    if (says_something(f)) filter_.add(f);
     return true;
   });
 }
@@ -230,6 +231,7 @@ void PppStage::count(const PppState& state) {
     counts_.slipped.add(s.slip);
   }
   if (state.status == PppStatus::none) counts_.without_position.fetch_add(1, relaxed);
+  if (setup_->heights() != nullptr) counts_.heights.add(filter_.map_free().height_use);
   counts_.restarts.store(state.restarts, relaxed);
   counts_.forgotten_roads.store(filter_.restorations(), relaxed);
 }
@@ -253,7 +255,7 @@ void PppStage::save_until(Time t, const std::stop_token& stop) {
 // matcher that resumes sends the feedback that becomes available after the cut.
 template <class Archive>
 void PppStage::archive(Archive& ar, Time cut) {
-  ar.section(spec().name, 4);
+  ar.section(spec().name, 5);
   const auto number = [&ar](std::atomic<std::uint64_t>& value) {
     std::uint64_t saved = value;
     ar(saved);
@@ -262,7 +264,7 @@ void PppStage::archive(Archive& ar, Time cut) {
   std::vector<MapFeedback> held;
   std::copy_if(held_.begin(), held_.end(), std::back_inserter(held),
                [cut](const MapFeedback& f) { return f.available <= cut; });
-  ar(filter_, counts_.refused, counts_.slipped);
+  ar(filter_, counts_.refused, counts_.slipped, counts_.heights);
   number(counts_.without_position);
   number(counts_.restarts);
   number(counts_.forgotten_roads);
@@ -284,6 +286,7 @@ std::vector<RefusalCount> PppStage::refusals() {
   add("epoch without a position", counts_.without_position.load(relaxed));
   counts_.refused.append_to(all, spec().name);
   counts_.slipped.append_to(all, spec().name, "slip: ");
+  counts_.heights.append_to(all, spec().name, "height of the ground: ");
   add("begun anew: measurements disagreed with the position", counts_.restarts.load(relaxed));
   add("a wrong road forgotten", counts_.forgotten_roads.load(relaxed));
   add("epoch without corrections", counts_.uncorrected.load(relaxed));

@@ -75,6 +75,7 @@ class PppStage final : public GraphStage {
   struct Counts {
     ReasonCounts<PppRefusal, count_of<PppRefusal>> refused;
     ReasonCounts<PppSlip, count_of<PppSlip>> slipped;
+    ReasonCounts<ppp::HeightUse, count_of<ppp::HeightUse>> heights;  // where there is a model
     std::atomic<std::uint64_t> without_position{0};
     std::atomic<std::uint64_t> restarts{0};
     std::atomic<std::uint64_t> forgotten_roads{0};

@@ -62,10 +62,11 @@ TEST(ConfigTables, EveryMemberOfAStructIsDescribedOnce) {
       EXPECT_TRUE(names.insert(name_of(table.name, parameter)).second) << parameter.key;
     if constexpr (!std::is_same_v<P, VehicleConfig>) {
       // [map] mode sets one member of the feedback's, [vehicle.imu] delay one of the replay's; the
-      // filter of [ppp] has a table of its own, and so have position, rotation and time of a
-      // sensor.
+      // filter of [ppp] has a table of its own, and so have the ground of that filter, and
+      // position, rotation and time of a sensor.
       constexpr std::size_t others =
           std::is_same_v<P, mapmatch::FeedbackParameters> || std::is_same_v<P, PppConfig> ||
+                  std::is_same_v<P, ppp::PppParameters> ||
                   std::is_same_v<P, sensors::KittiDriveParameters>
               ? 1
           : std::is_same_v<P, CameraDescription> || std::is_same_v<P, LidarDescription> ? 3
