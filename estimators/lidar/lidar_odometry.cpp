@@ -54,11 +54,13 @@ OdometerResult LidarOdometry::process(const std::optional<ScanView>& scan,
   result.lidar.source = OdometrySource::lidar;
   result.lidar.status = OdometryStatus::bad_input;
   if (visual != nullptr) result.odometry = *visual;
-  if (visual != nullptr && !tells_a_pose(*visual)) visual = nullptr;
+  if (visual != nullptr && visual->status == OdometryStatus::bad_input) visual = nullptr;
+  const bool seen = visual != nullptr;
+  if (seen && !tells_a_pose(*visual)) visual = nullptr;
   if (!scan && visual == nullptr) return result;
   begin(visual != nullptr ? static_cast<const Sample&>(*visual) : *scan, &result.lidar);
   if (!in_order(scan, result.lidar.stamp) || (visual == nullptr && too_late(*scan))) {
-    if (visual == nullptr) result.odometry = result.lidar;
+    if (!seen) result.odometry = result.lidar;
     return result;
   }
 
@@ -68,7 +70,7 @@ OdometerResult LidarOdometry::process(const std::optional<ScanView>& scan,
     register_scan(*scan, prediction, &result.lidar);
     if (result.lidar.status == OdometryStatus::ok) T_from_to = result.lidar.T_from_to();
   }
-  if (visual == nullptr || result.lidar.status == OdometryStatus::ok) {
+  if (!seen || result.lidar.status == OdometryStatus::ok) {
     result.odometry = result.lidar;
   }
   advance(T_from_to, result);
@@ -79,7 +81,7 @@ OdometerResult LidarOdometry::process(const std::optional<ScanView>& scan,
 // Without any motion, the pose at the stamp of a refused visual one cannot be told.
 bool LidarOdometry::tells_a_pose(const RelativeMotion& visual) const {
   if (visual.status == OdometryStatus::ok) return true;
-  return visual.status != OdometryStatus::bad_input && twist_ && !after_gap(visual.stamp);
+  return twist_ && !after_gap(visual.stamp);
 }
 
 bool LidarOdometry::after_gap(Time stamp) const {
