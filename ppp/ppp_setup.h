@@ -16,11 +16,11 @@
 namespace maploop::ppp {
 
 struct SetupOptions {
-  PppParameters parameters;
-  Models models;
+  PppParameters parameters{};
+  Models models{};
   bool broadcast = false;  // uses broadcast orbits even if precise ones are given
-  std::string heights;     // tile or folder of tiles; empty: the ground's height is not used
-  std::string geoid;       // as of HeightModel
+  std::string heights{};   // tile or folder of tiles; empty: the ground's height is not used
+  std::string geoid{};     // as of HeightModel
 };
 
 // A LiveReceiver is one whose stream is read; it describes what the header of a file would give.

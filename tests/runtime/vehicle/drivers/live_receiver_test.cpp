@@ -100,7 +100,7 @@ TEST(LiveReceiver, GivesThePositionsOfTheSameObservationsInFiles) {
   files.navigation = kamakura().navigation;
   for (ppp::NavigationFile& file : files.navigation) file.ionosphere.clear();  // it is not sent
   ppp::parse_into(recording, "made.ubx", files);
-  const ppp::PppSetup setup(files, {config.ppp.filter, {}, false});
+  const ppp::PppSetup setup(files, {.parameters = config.ppp.filter});
   ppp::MapAidedFilter filter = setup.make_map_aided_filter();
   std::size_t positions = 0;
   for (std::size_t i = 0; i < count; ++i) {
