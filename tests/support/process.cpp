@@ -28,9 +28,12 @@ std::string maploop_command() {
   return std::filesystem::read_symlink("/proc/self/exe").replace_filename("maploop").string();
 }
 
-bool comes_to_contain(const std::filesystem::path& file, const std::string& text) {
+bool comes_to_contain(const std::filesystem::path& file, const std::string& text, int times) {
   for (int i = 0; i < 600; ++i) {
-    if (content(file).find(text) != std::string::npos) return true;
+    const std::string all = content(file);
+    int found = 0;
+    for (auto at = all.find(text); at != std::string::npos; at = all.find(text, at + 1)) ++found;
+    if (found >= times) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   return false;

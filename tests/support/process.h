@@ -37,9 +37,9 @@ class Process {
 // Returns the `maploop` command of the build to which the running test belongs.
 std::string maploop_command();
 
-// Waits until a file that another process writes contains `text`; returns false if it does not
-// within a minute.
-bool comes_to_contain(const std::filesystem::path& file, const std::string& text);
+// Waits until a file that another process writes contains `text` so many times; returns false if it
+// does not within a minute.
+bool comes_to_contain(const std::filesystem::path& file, const std::string& text, int times = 1);
 
 inline ProcessResult run(const std::vector<std::string>& command) {
   return Process(command).wait();

@@ -57,6 +57,8 @@ TEST_F(ReplayOfDrive, EverySignalThatEndsARunEndsItInOrderAlsoWhenItComesTwice) 
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const auto process =
         started({"--start", "4", "--tum", file("states.tum"), "--json", file("table.json")});
+    // The first states are of no image.
+    EXPECT_TRUE(comes_to_contain(file("log"), "ODOMETRY", 20));
     process->send_signal(signal);
     process->send_signal(signal);  // as sent by a program that signals its whole group
     const ProcessResult result = process->wait();
