@@ -36,6 +36,7 @@ std::vector<MapFeedback> feedbacks(const RoadNetwork& network, const std::vector
   Matcher matcher(network, rules(), {});
   Feedback feedback(network, parameters);
   std::vector<MapFeedback> all;
+  all.reserve(fixes.size());
   for (const VehicleFix& fix : fixes) all.push_back(feedback.decide(matcher.add(fix), fix));
   return all;
 }

@@ -41,6 +41,7 @@ bool comes_to_contain(const std::filesystem::path& file, const std::string& text
 
 Process::Process(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
 

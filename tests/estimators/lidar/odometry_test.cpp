@@ -232,7 +232,7 @@ TEST(LidarParametersTest, WhatCannotBeUsedIsNamed) {
   LidarParameters parameters;
   parameters.kernel = 0.0;
   try {
-    LidarOdometry(Eigen::Isometry3d::Identity(), parameters);
+    const LidarOdometry refused(Eigen::Isometry3d::Identity(), parameters);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("kernel"), std::string::npos) << error.what();

@@ -140,6 +140,7 @@ TEST(LidarStage, ADriftingScannerBreaksNoChain) {
 
 TEST(LidarStage, ASilentScannerHoldsNothingUp) {
   std::vector<Input> inputs;
+  inputs.reserve(count);
   for (int i = 0; i < count; ++i) inputs.emplace_back(visual(i));
   const Sent sent = run(inputs);
   ASSERT_EQ(sent.odometry.size(), static_cast<std::size_t>(count));
