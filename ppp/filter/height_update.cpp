@@ -1,8 +1,8 @@
 #include "ppp/filter/height_update.h"
 
 #include <cmath>
-#include <span>
 
+#include "ppp/filter/row_update.h"
 #include "ppp/models/geodesy.h"
 
 namespace maploop::ppp {
@@ -17,17 +17,6 @@ void open_height_states(FilterState& state, const HeightModel& heights, const Gr
 
 bool in_use(const FilterState& state) {
   return state.P()(S::ground_error, S::ground_error) > 0.0;
-}
-
-// Returns the variance of what the state predicts for the row, m^2.
-double predicted_variance(const FilterState& state, const LinearRow& row) {
-  double variance = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(row.count); ++i) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
-      variance += row.h[i] * row.h[k] * state.P()(row.indices[i], row.indices[k]);
-    }
-  }
-  return variance;
 }
 
 }  // namespace
@@ -72,10 +61,7 @@ HeightUse apply_height(FilterState& state, const HeightModel& heights,
   const LinearRow row = height_row(state, ground, parameters);
   const double variance = predicted_variance(state, row) + row.variance;
   if (row.y * row.y > parameters.gate * variance) return HeightUse::gated;
-  const auto n = static_cast<std::size_t>(row.count);
-  dx.setZero();
-  state.update(std::span(row.indices).first(n), std::span(row.h).first(n), row.y, row.variance, dx);
-  state.x() += dx.head(state.size());
+  apply_row(state, row, dx);
   return HeightUse::used;
 }
 

@@ -1,8 +1,8 @@
 #include "ppp/filter/map_update.h"
 
 #include <cmath>
-#include <span>
 
+#include "ppp/filter/row_update.h"
 #include "ppp/models/geodesy.h"
 
 namespace maploop::ppp {
@@ -19,10 +19,7 @@ Eigen::Vector3d right_of(const MapFeedback& f) {
 MapUse apply(FilterState& state, const LinearRow& row, double own, double map,
              const PppParameters& parameters, Eigen::VectorXd& dx) {
   if (row.y * row.y > parameters.map_gate * (own + map)) return MapUse::gated;
-  const auto n = static_cast<std::size_t>(row.count);
-  dx.setZero();
-  state.update(std::span(row.indices).first(n), std::span(row.h).first(n), row.y, row.variance, dx);
-  state.x() += dx.head(state.size());
+  apply_row(state, row, dx);
   return MapUse::used;
 }
 

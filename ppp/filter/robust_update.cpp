@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "ppp/filter/row_update.h"
+
 namespace maploop::ppp {
 namespace {
 
@@ -11,18 +13,6 @@ constexpr int absolute_passes = 5;  // until sums of absolute values settle
 // A new ambiguity absorbs its whole phase: below this share of the variance nothing is to be
 // tested.
 constexpr double least_share = 1e-3;
-
-// Returns the variance of the measured quantity according to the state.
-double predicted_variance(const FilterState& state, const Row& row) {
-  const auto P = state.P();
-  double variance = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(row.count); ++i) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
-      variance += row.h[i] * P(row.indices[i], row.indices[k]) * row.h[k];
-    }
-  }
-  return variance;
-}
 
 }  // namespace
 

@@ -81,10 +81,9 @@ std::optional<double> GeoidGrid::at(double latitude, double longitude) const {
 }
 
 GeoidGrid read_geoid_grid(const std::filesystem::path& file) {
+  const std::string bytes = read_text(file, input_limits::geoid_grid);
   try {
-    return GeoidGrid(read_text(file, input_limits::geoid_grid));
-  } catch (const FileError&) {
-    throw;
+    return GeoidGrid(bytes);
   } catch (const std::runtime_error& e) {
     throw FileError(file, e.what());
   }

@@ -1,4 +1,4 @@
-// What happened to the height of the ground at an epoch.
+// This states whether the height of the ground was used at an epoch, or why it was not.
 #pragma once
 
 #include <cstdint>

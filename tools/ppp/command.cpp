@@ -82,10 +82,7 @@ gnss::RunOptions run_options(const PppOptions& options, const vehicle::PppConfig
                              const std::optional<gnss::MapOptions>& map, ppp::GpsTime first,
                              ppp::GpsTime last) {
   gnss::RunOptions run;
-  run.parameters = config.filter;
-  run.broadcast = config.broadcast;
-  run.heights = config.heights;
-  run.geoid = config.geoid;
+  static_cast<ppp::SetupOptions&>(run) = vehicle::setup_options(config);
   run.map = map;
   run.direction = options.direction.value_or(gnss::Direction::forward);
   if (map && run.direction != gnss::Direction::forward) {

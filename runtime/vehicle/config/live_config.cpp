@@ -53,9 +53,7 @@ std::shared_ptr<const ppp::PppSetup> live_ppp(const VehicleConfig& config) {
   }
   const std::size_t space = p.gnss_antenna.find(' ');
   products->setup.emplace(
-      products->files,
-      ppp::SetupOptions{
-          config.ppp.filter, {}, config.ppp.broadcast, config.ppp.heights, config.ppp.geoid},
+      products->files, setup_options(config.ppp),
       ppp::LiveReceiver{p.gnss_frequencies == 1, p.gnss_antenna.substr(0, space),
                         space == std::string::npos ? "" : p.gnss_antenna.substr(space + 1)});
   return {products, &*products->setup};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "estimators/fusion/configuration.h"
+#include "ppp/ppp_setup.h"
 #include "runtime/core/config.h"
 #include "runtime/vehicle/config/config_tables.h"
 #include "sensors/live/endpoint.h"
@@ -210,6 +211,10 @@ VehicleConfig load_vehicle_config(const std::filesystem::path& file,
   config.vehicle_file.clear();  // all of it is in `vehicle`
   config.bag.topics.insert(config.bag.topics.end(), topics.begin(), topics.end());
   return config;
+}
+
+ppp::SetupOptions setup_options(const PppConfig& config) {
+  return {config.filter, {}, config.broadcast, config.heights, config.geoid};
 }
 
 std::string to_toml(const VehicleConfig& config) {

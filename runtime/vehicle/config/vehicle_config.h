@@ -30,6 +30,10 @@
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/pose_odometry.h"
 
+namespace maploop::ppp {
+struct SetupOptions;
+}  // namespace maploop::ppp
+
 namespace maploop::vehicle {
 
 // These say which pictures and scans dashboards get.
@@ -50,6 +54,9 @@ struct PppConfig {
   std::string heights, geoid;
   ppp::PppParameters filter;
 };
+
+// Returns what precise point positioning is set up with.
+ppp::SetupOptions setup_options(const PppConfig& config);
 
 enum class MapMode : std::uint8_t {
   none,        // no matching

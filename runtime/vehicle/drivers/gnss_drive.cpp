@@ -70,10 +70,7 @@ void GnssDrive::read_products(const fs::path& observations, const VehicleConfig&
   const fs::path beside = fs::absolute(observations).parent_path();
   if (config.ppp.products.empty()) ppp::read_products(beside, files_, observations);
   for (const fs::path product : config.ppp.products) ppp::read_products(product, files_);
-  setup_ = std::make_unique<ppp::PppSetup>(
-      files_,
-      ppp::SetupOptions{
-          config.ppp.filter, {}, config.ppp.broadcast, config.ppp.heights, config.ppp.geoid});
+  setup_ = std::make_unique<ppp::PppSetup>(files_, setup_options(config.ppp));
 }
 
 Time GnssDrive::first_stamp() const {

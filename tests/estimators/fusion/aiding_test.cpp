@@ -346,7 +346,7 @@ TEST(ChainedAzimuth, LeadsToNearlyTheSameWayWhereNothingIsRefused) {
   EXPECT_LT(azimuth_error(true), radians(1.0));
 }
 
-// Of the drive's two bends, the first shows the delay, and the state is compared in the second.
+// The drive has two bends: the first shows the delay, and the states are compared in the second.
 TEST(ImuDelay, LeftInTheStampsIsFoundAgainstOdometryAndAllowedFor) {
   const SyntheticDrive drive(town(), 43.0, test_origin());
   double azimuth_without = 0.0;

@@ -204,7 +204,7 @@ TEST(GeoidGrids, OthersAreRefused) {
 TEST(GeoidGrids, Egm96HasItsKnownHeights) {
   if (!fs::exists(HeightModel::usual_geoid)) GTEST_SKIP() << "SKIPPED: proj-data is not installed";
   const GeoidGrid grid = read_geoid_grid(HeightModel::usual_geoid);
-  // Of NIMA's table of test points for EGM96 (TR8350.2), to its interpolation.
+  // These are test points of NIMA for EGM96 (TR8350.2); the tolerance is that of interpolation.
   EXPECT_NEAR(*grid.at(38.6281550, 269.7791550), -31.628, 0.05);
   EXPECT_NEAR(*grid.at(-14.6212170, 305.0211140), -2.969, 0.05);
   EXPECT_NEAR(*grid.at(46.8743190, 102.4487290), -43.575, 0.05);
