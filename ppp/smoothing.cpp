@@ -33,7 +33,7 @@ PppSolution combined(const PppSolution& forward, const PppSolution& backward) {
   const double backward_trace = backward.covariance.trace();
   PppSolution both = forward_trace <= backward_trace ? forward : backward;
   both.status = std::max(forward.status, backward.status);
-  // (28) of METHOD.md
+  // (29) of METHOD.md
   const double share = backward_trace / (forward_trace + backward_trace);
   const auto intersect = [share](const auto& x, const auto& P, const auto& y, const auto& Q) {
     const Eigen::Matrix3d weight = share * P.inverse(), other = (1.0 - share) * Q.inverse();

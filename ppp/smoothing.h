@@ -17,7 +17,7 @@ std::vector<Epoch> reversed(const std::vector<Epoch>& epochs);
 // Returns the combination of the solutions of one epoch by a filter that ran forward and one that
 // ran backward. If one of them has no position, the other one is returned. Both contain this epoch,
 // the models' errors and what is known before the first epoch, to an unknown degree. So the
-// covariances are intersected ((28) of METHOD.md), which is right however much the two have in
+// covariances are intersected ((29) of METHOD.md), which is right however much the two have in
 // common. The satellites' reports are those of the more accurate one.
 PppSolution combined(const PppSolution& forward, const PppSolution& backward);
 

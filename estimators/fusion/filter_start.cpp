@@ -78,9 +78,10 @@ void ReducedImuFilter::start_where_left(Time first) {
   }
 }
 
-bool ReducedImuFilter::moved_by(const GnssFix& fix) {
+bool ReducedImuFilter::moved_by(const GnssFix& whole) {
   if (!initialized_ || (status_.place != PlaceUse::started && status_.place != PlaceUse::seen))
     return false;
+  const GnssFix fix = whole.alone();
   const Reason reason = check_fix(fix, parameters_);
   if (reason != Reason::none && reason != Reason::too_slow) return false;
   const auto at_position = predicted(fix.stamp), at_velocity = predicted(fix.velocity_stamp);

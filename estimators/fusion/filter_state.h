@@ -188,6 +188,13 @@ inline void doubt_with_clone(FilterState& state, int original, double sigma) {
   }
 }
 
+// Adds a covariance (m^2, enu) to that of the position, and to the clone's in the same way.
+inline void doubt_position_with_clone(FilterState& state, const Eigen::Matrix3d& covariance) {
+  for (const int i : {index::east, index::clone_east}) {
+    for (const int j : {index::east, index::clone_east}) state.P.block<3, 3>(i, j) += covariance;
+  }
+}
+
 // The body's pose times the mounting's is that of the described axes. The positions are taken as
 // differences, which lose no digits far from the origin.
 inline OdomPose FilterState::odom_of_described() const {

@@ -50,16 +50,37 @@ void restart_from(FilterState& state, GnssFix fix, const LocalFrame& frame,
   ++state.reinitializations;
 }
 
+// What a fix has measured, without what this filter knows already.
+struct Measured {
+  Vector3d position;  // m, enu
+  FixError error;
+};
+
+Measured measured_by(const GnssFix& fix, const LocalFrame& frame, const FusionParameters& p) {
+  const Vector3d position = frame.to_enu(fix.position);
+  if (!fix.increment) return {position, split_error(fix.position_covariance, p)};
+  return {position + fix.increment->position,
+          {Matrix3d::Zero(), fix.increment->position_covariance}};
+}
+
+const Vector3d& velocity_of(const GnssFix& fix) {
+  return fix.increment ? fix.increment->velocity_enu : fix.velocity_enu;
+}
+
+const Matrix3d& velocity_covariance_of(const GnssFix& fix) {
+  return fix.increment ? fix.increment->velocity_covariance : fix.velocity_covariance;
+}
+
 }  // namespace
 
 Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
                                   const LocalFrame& frame, const FusionParameters& p) {
   using namespace index;
   const Vector3d arm = rotation_enu_body(state.attitude()) * state.gnss_lever();
-  const FixError error = split_error(fix.position_covariance, p);
+  const auto [position, error] = measured_by(fix, frame, p);
   Innovation<3> innovation;
   // (18) of METHOD.md
-  innovation.residual = frame.to_enu(fix.position) - state.x.segment<3>(east) - arm -
+  innovation.residual = position - state.x.segment<3>(east) - arm -
                         error.lasting * state.x.segment<3>(gnss_offset_east);
   innovation.H.middleCols<3>(east).setIdentity();
   innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), arm);
@@ -85,7 +106,7 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
   const Vector3d swing = R * Vector3d(0.0, 0.0, rate).cross(arm);
 
   Innovation<3> innovation;
-  innovation.residual = fix.velocity_enu - ground * travel - swing;  // (19) of METHOD.md
+  innovation.residual = velocity_of(fix) - ground * travel - swing;  // (19) of METHOD.md
   innovation.H.col(speed) = travel / (1.0 + x[speed_scale]);
   innovation.H.col(speed_scale) = -ground / (1.0 + x[speed_scale]) * travel;
   innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), swing);
@@ -97,8 +118,8 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
   innovation.H.col(lever_forward) = rate * R.col(1);
   innovation.H.col(lever_left) = -rate * R.col(0);
   const double slip = p.slip_sigma * ground;
-  innovation.R =
-      fix.velocity_covariance + slip * slip * (Matrix3d::Identity() - travel * travel.transpose());
+  innovation.R = velocity_covariance_of(fix) +
+                 slip * slip * (Matrix3d::Identity() - travel * travel.transpose());
   innovation.R.diagonal().array() += p.min_velocity_sigma * p.min_velocity_sigma;
   return innovation;
 }
@@ -110,6 +131,7 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
     return apply_gated(state, innovation, p.gnss_position_gate, Reason::position_gate, {},
                        witness.excess(2, p.doubt_scatter));
   };
+  if (fix.increment) doubt_position_with_clone(state, fix.increment->growth);
   const Innovation<3> innovation = position_innovation(state, fix, frame, p);
   follow(state, Witness::fix_position, innovation, p);
   Outcome outcome = correct(innovation);
@@ -124,7 +146,7 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
       inflate_position(state, p);
       witness = {};
       ++state.recoveries;
-      outcome = correct(position_innovation(state, fix, frame, p));
+      outcome = correct(position_innovation(state, fix.alone(), frame, p));
     } else if (row.count >= 2 * p.gnss_recover_after && check_fix(fix, p) == Reason::none) {
       restart_from(state, fix, frame, p);
       witness = {};
@@ -153,7 +175,7 @@ Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_r
     outcome = correct(velocity_innovation(state, fix, yaw_rate, p));
   }
   if (!outcome.refused()) state.velocity_gated_in_a_row = 0;
-  const double sigma = std::sqrt(fix.velocity_covariance.diagonal().head<2>().maxCoeff());
+  const double sigma = std::sqrt(velocity_covariance_of(fix).diagonal().head<2>().maxCoeff());
   if (!outcome.refused() && sigma <= 0.2 * p.recovery_speed_sigma) {
     state.speed_fixed = fix.velocity_stamp;
   }

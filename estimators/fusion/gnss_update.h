@@ -11,12 +11,14 @@ namespace maploop::fusion {
 
 // z = position in enu, m; h = position + R lever + L offset. The offset is the lasting part of the
 // receiver's error with variance 1, and L L^T is the lasting share of the stated covariance. R
-// contains the remaining share (fix_error.h).
+// contains the remaining share (fix_error.h). With an increment, z and R are the increment's, and L
+// is zero.
 Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
                                   const LocalFrame& frame, const FusionParameters& parameters);
 
 // z = velocity in enu, m/s; h = speed along the direction of travel + R (rate x lever), with
-// `yaw_rate` in rad/s. The side slip is not a state, so its variance is in R.
+// `yaw_rate` in rad/s. The side slip is not a state, so its variance is in R. With an increment, z
+// and the rest of R are the increment's.
 Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, double yaw_rate,
                                   const FusionParameters& parameters);
 

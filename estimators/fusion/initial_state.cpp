@@ -128,6 +128,14 @@ Reason check_fix(const GnssFix& fix, const FusionParameters& parameters) {
   if (!is_covariance(fix.position_covariance) || !is_covariance(fix.velocity_covariance)) {
     return Reason::invalid_covariance;
   }
+  if (fix.increment) {
+    const GnssIncrement& i = *fix.increment;
+    if (!i.position.allFinite() || !i.velocity_enu.allFinite()) return Reason::not_finite;
+    if (!is_covariance(i.position_covariance) || !is_covariance(i.velocity_covariance) ||
+        !is_covariance(i.growth)) {
+      return Reason::invalid_covariance;
+    }
+  }
   const Duration limit = from_seconds(parameters.max_stamp_offset);
   if (!plausible_stamp(fix.velocity_stamp) ||
       start_stamp(fix) < std::max(fix.stamp, fix.velocity_stamp) - limit) {

@@ -28,6 +28,13 @@ bool fits(const CarriedMotion& motion, double interval) {
          motion.displacement.allFinite() && motion.velocity.allFinite();
 }
 
+// Adds what all satellites have in common and no state contains.
+Eigen::Matrix3d with_model_error(const Eigen::Matrix3d& position_covariance,
+                                 const PppParameters& parameters) {
+  return position_covariance +
+         parameters.model_sigma * parameters.model_sigma * Eigen::Matrix3d::Identity();
+}
+
 }  // namespace
 
 PppFilter::PppFilter(const PppParameters& parameters, const RangeInputs& inputs, Earth earth,
@@ -51,6 +58,7 @@ void PppFilter::reset() {
   bad_epochs_ = 0;
   restarts_ = 0;
   integers_.reset();
+  grown_.reset();
   solution_.status = PppStatus::none;
 }
 
@@ -63,7 +71,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch, const CarriedMotion* c
   if (!started_ && !start(measured_, epoch.time)) return solution_;
 
   if (carried != nullptr && !fits(*carried, interval)) carried = nullptr;
-  if (interval != 0.0) predict_state(state_, interval, carried, model_.ephemeris(), parameters_);
+  if (interval != 0.0) predict(interval, carried);
   time_ = epoch.time;
   use_height();
   model_.begin(time_, state_.x().segment<3>(S::position));
@@ -128,6 +136,21 @@ void PppFilter::set_zenith_ionosphere(const std::vector<Tracked>& tracked) {
   }
 }
 
+// Of the epochs between two solutions all must be carried: without a motion the filter assumes one,
+// which nobody else knows.
+void PppFilter::predict(double interval, const CarriedMotion* carried) {
+  const auto x = state_.x();
+  const auto P = state_.P();
+  const auto position = P.block<3, 3>(S::position, S::position);
+  const Eigen::Matrix3d before = position;
+  predict_state(state_, interval, carried, model_.ephemeris(), parameters_);
+  if (carried == nullptr) grown_.reset();
+  if (!grown_) return;
+  *grown_ += position - before;
+  solution_.carried = {x.segment<3>(S::position), with_model_error(position, parameters_),
+                       x.segment<3>(S::velocity), P.block<3, 3>(S::velocity, S::velocity), *grown_};
+}
+
 void PppFilter::use_height() {
   if (heights_ == nullptr) return;
   solution_.height_use = time_ <= off_ground_until_
@@ -164,9 +187,7 @@ void PppFilter::report(const std::vector<Tracked>& tracked) {
   const auto x = state.x();
   const auto P = state.P();
   solution_.position = x.segment<3>(S::position);
-  solution_.covariance = P.block<3, 3>(S::position, S::position) + parameters_.model_sigma *
-                                                                       parameters_.model_sigma *
-                                                                       Eigen::Matrix3d::Identity();
+  solution_.covariance = with_model_error(P.block<3, 3>(S::position, S::position), parameters_);
   solution_.velocity = x.segment<3>(S::velocity);
   solution_.velocity_covariance = P.block<3, 3>(S::velocity, S::velocity);
   solution_.clock = x[S::clock];
@@ -181,6 +202,8 @@ void PppFilter::report(const std::vector<Tracked>& tracked) {
     if (solution_.message.empty()) solution_.message = "fewer than four satellites";
     return;
   }
+  grown_ = Eigen::Matrix3d::Zero();
+  if (fixed != nullptr) solution_.carried.reset();
   const Eigen::Matrix3d& R = model_.R_enu_ecef();
   const Eigen::Matrix3d enu = R * solution_.covariance * R.transpose();
   const bool small = std::sqrt(enu(0, 0) + enu(1, 1)) < converged_sigma;

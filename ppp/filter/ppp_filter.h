@@ -3,6 +3,8 @@
 // single-threaded, and its results depend on the epochs and the feedback alone.
 #pragma once
 
+#include <optional>
+
 #include "msgs/parameter_archive.h"
 #include "ppp/carried_motion.h"
 #include "ppp/filter/clock_steps.h"
@@ -54,7 +56,7 @@ class PppFilter {
   // parameters, and the filter then stays as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 12);
+    ar.section("ppp", 13);
     archive_same_parameters(ar, parameters_);
     archive_same_parameters(ar, parameters_.ground);
     if constexpr (Archive::loading) {
@@ -70,12 +72,13 @@ class PppFilter {
   template <class Archive>
   void archive_state(Archive& ar) {
     ar(state_, satellites_, levels_, unobstructed_cn0_, clock_steps_, clocks_, started_,
-       started_at_, time_, off_ground_until_, bad_epochs_, restarts_, integers_, solution_.status,
-       solution_.position, solution_.covariance, solution_.restarts);
+       started_at_, time_, off_ground_until_, bad_epochs_, restarts_, integers_, grown_,
+       solution_.status, solution_.position, solution_.covariance, solution_.restarts);
   }
 
   void begin_solution(GpsTime t);
   bool start(const std::vector<Measurement>& measured, GpsTime t);
+  void predict(double interval, const CarriedMotion* carried);
   void use_height();
   void learn_strengths(const std::vector<Tracked>& tracked);
   void set_zenith_ionosphere(const std::vector<Tracked>& tracked);
@@ -98,6 +101,9 @@ class PppFilter {
   int bad_epochs_ = 0;  // number of epochs in a row whose measurements disagree with the position
   std::uint64_t restarts_ = 0;
   IntegerFix integers_;
+  // m^2, what the motions since the last solution have added to the position's covariance; nothing:
+  // there is no solution yet, or an epoch since was not carried.
+  std::optional<Eigen::Matrix3d> grown_;
   PppSolution solution_;
 
   // These belong to one call and are members only to reuse their memory.

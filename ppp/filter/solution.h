@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,16 @@ struct IntegerReport {
   double misfit = 0.0;        // squared distance of the best for each ambiguity, in variances
 };
 
+// What the filter knew of an epoch before its measurements, from the solution before and from a
+// motion of other sensors. Covariances are like those of the solution.
+struct CarriedSolution {
+  Eigen::Vector3d position{0, 0, 0};  // m, earth-fixed
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d velocity{0, 0, 0};  // m/s
+  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d growth = Eigen::Matrix3d::Zero();  // m^2, of the covariance, by the motion alone
+};
+
 struct PppSolution {
   GpsTime time{};
   PppStatus status = PppStatus::none;
@@ -57,7 +68,8 @@ struct PppSolution {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2, earth-fixed
   Eigen::Vector3d velocity{0, 0, 0};                     // m/s
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();
-  double clock = 0.0;                                   // m
+  std::optional<CarriedSolution> carried;  // nothing: not known, or the integers' solution
+  double clock = 0.0;                      // m
   double zenith_delay = 0.0, zenith_delay_sigma = 0.0;  // m, of the whole troposphere
   double running_for = 0.0;                             // s since the filter started or restarted
   std::uint64_t restarts = 0;                           // number of restarts

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "ppp/epoch_state.h"
+#include "ppp/increment.h"
 #include "runtime/vehicle/graph/trace_flows.h"
 
 namespace maploop::vehicle {
@@ -221,6 +222,7 @@ void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
   use_.note(epoch.available, state_.status == PppStatus::none ? "no position" : nullptr);
   std::erase_if(sent_, [&](const Sent& s) { return s.state.available <= epoch.available; });
   sent_.push_back({state_, free_state_.status != PppStatus::none, ppp::to_fix(free_state_)});
+  sent_.back().fix.increment = ppp::increment_of(filter_.map_free());
   send(sent_.back(), stop);
   use_feedback(epoch.available);
 }
@@ -255,7 +257,7 @@ void PppStage::save_until(Time t, const std::stop_token& stop) {
 // matcher that resumes sends the feedback that becomes available after the cut.
 template <class Archive>
 void PppStage::archive(Archive& ar, Time cut) {
-  ar.section(spec().name, 5);
+  ar.section(spec().name, 6);
   const auto number = [&ar](std::atomic<std::uint64_t>& value) {
     std::uint64_t saved = value;
     ar(saved);
