@@ -16,6 +16,9 @@ import sys
 import tempfile
 import time
 
+sys.path.append(os.path.join(os.path.dirname(__file__), "../.."))
+import own_network
+
 PATIENCE = 60.0  # s, for any one thing to appear; a loaded machine is slow
 SCALE = 2  # of the spy's window, so that its text can be read from a picture
 SCREEN = (3000, 1300)
@@ -40,33 +43,10 @@ CHANNELS = {
     "VO": ("relative_motion_t", "translation"),
 }
 TOOLS = ["ip", "unshare", "setpriv", "Xvfb", "import", "convert", "tesseract", "xdotool", "java", "javac"]
-INSIDE = "MAPLOOP_TEST_NETWORK_NAMESPACE"
 
 
 class Failure(Exception):
     pass
-
-
-def skip(reason):
-    print(f"SKIPPED, NOT TESTED: {reason}")
-    sys.exit(77)
-
-
-def enter_network_namespace():
-    """Goes on in a network namespace of its own whose loopback carries multicast."""
-    for options in (["--net"], ["--net", "--map-root-user"]):
-        probe = subprocess.run(["unshare", *options, "true"], capture_output=True, text=True)
-        if probe.returncode == 0:
-            os.execvpe("unshare", ["unshare", *options, sys.executable, *sys.argv],
-                       {**os.environ, INSIDE: "1"})
-    skip(f"no network namespace of its own is permitted here: {probe.stderr.strip()}")
-
-
-def open_multicast():
-    for command in ("ip link set lo up multicast on", "ip route add 224.0.0.0/4 dev lo"):
-        done = subprocess.run(command.split(), capture_output=True, text=True)
-        if done.returncode != 0:
-            skip(f"'{command}' is not permitted here: {done.stderr.strip()}")
 
 
 def wait_for(what, look):
@@ -78,31 +58,6 @@ def wait_for(what, look):
             return found
         time.sleep(0.2)
     raise Failure(f"waited {PATIENCE:.0f} s in vain for {what}")
-
-
-class Children:
-    """Processes of this test. They end with it, even when it is killed."""
-
-    def __init__(self):
-        self.running = []
-
-    def start(self, *command, **options):
-        child = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command], **options)
-        self.running.append(child)
-        return child
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *unused):
-        for child in reversed(self.running):
-            child.terminate()
-        for child in self.running:
-            try:
-                child.wait(timeout=10)
-            except subprocess.TimeoutExpired:
-                child.kill()
-                child.wait()
 
 
 def start_screen(children):
@@ -212,7 +167,7 @@ def check_refusals(lcm_spy):
 def run(publisher, lcm_spy, pictures):
     os.makedirs(pictures, exist_ok=True)
     check_refusals(lcm_spy)
-    with tempfile.TemporaryDirectory() as cache, Children() as children:
+    with tempfile.TemporaryDirectory() as cache, own_network.Children() as children:
         os.environ["DISPLAY"] = start_screen(children)
         os.environ.pop("LCM_DEFAULT_URL", None)
         children.start(publisher, "500")
@@ -232,10 +187,8 @@ def main():
         sys.exit(__doc__)
     missing = [tool for tool in TOOLS if shutil.which(tool) is None]
     if missing:
-        skip(f"not installed: {', '.join(missing)}; run tools/install-packages watch test")
-    if INSIDE not in os.environ:
-        enter_network_namespace()
-    open_multicast()
+        own_network.skip(f"not installed: {', '.join(missing)}; run tools/install-packages watch test")
+    own_network.enter()
     try:
         run(*sys.argv[1:])
     except Failure as failure:
