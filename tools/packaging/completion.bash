@@ -19,4 +19,4 @@ _maploop() {
     mapfile -t COMPREPLY < <(compgen -f -- "$word")
   fi
 }
-complete -o filenames -F _maploop maploop
+complete -o filenames -F _maploop maploop maploop-vehicle

@@ -3,6 +3,7 @@
 
     man_page.py MAPLOOP OUTPUT
 """
+import os
 import re
 import subprocess
 import sys
@@ -35,13 +36,14 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     program, output = sys.argv[1:]
+    name = os.path.basename(program)
     version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
-    lines = [f'.TH MAPLOOP 1 "" "maploop {version}"',
-             ".SH NAME", "maploop \\- vehicle localization in real time",
-             ".SH SYNOPSIS", ".B maploop", "SUBCOMMAND [OPTIONS]"]
+    lines = [f'.TH {name.upper()} 1 "" "maploop {version}"',
+             ".SH NAME", f"{name} \\- vehicle localization in real time",
+             ".SH SYNOPSIS", f".B {name}", "SUBCOMMAND [OPTIONS]"]
     for words, text in pages([program]):
-        lines += [f'.SH "{" ".join(["maploop", *words]).upper()}"', ".nf",
-                  *(escaped(line) for line in text.strip().replace(program, "maploop").splitlines()), ".fi"]
+        lines += [f'.SH "{" ".join([name, *words]).upper()}"', ".nf",
+                  *(escaped(line) for line in text.strip().replace(program, name).splitlines()), ".fi"]
     with open(output, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
 
