@@ -70,10 +70,10 @@ TEST(CarriedFix, ItsGrowthLeavesTheMotionSinceTheCloneAsWellKnown) {
   EXPECT_NEAR(state.P(index::east, index::east), 1.5, 1e-6);
   EXPECT_NEAR(state.P(index::north, index::north), 1.25, 1e-6);
   EXPECT_NEAR(state.P(index::up, index::up), 1.75, 1e-6);
-  StateMatrix::RowVectorType moved = StateMatrix::RowVectorType::Zero();
+  StateVector moved = StateVector::Zero();
   moved[index::east] = 1.0;
   moved[index::clone_east] = -1.0;
-  EXPECT_NEAR(moved * state.P * moved.transpose(), 0.0, 1e-9);
+  EXPECT_NEAR(moved.dot(state.P * moved), 0.0, 1e-9);
 }
 
 // A receiver whose error lasts: its variance is in balance between its motion and what it measures.

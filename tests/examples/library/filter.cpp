@@ -1,10 +1,8 @@
-// Dead reckoning for a second, from a fix on the way: what an estimator of maploop needs from its
-// user.
+// The fused filter without threads: dead reckoning for a second, from a fix on the way.
 #include <cmath>
 #include <iostream>
 
 #include "estimators/fusion/reduced_imu_filter.h"
-#include "sensors/cloud/pcl_adapter.h"  // needs PCL only where it is used
 
 int main() {
   using namespace maploop;
