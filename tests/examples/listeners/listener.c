@@ -1,9 +1,8 @@
 // Prints each NAV_STATE, in C. TYPES is the folder of the installed message types, share/maploop/lcm:
 //   cc -I TYPES/c listener.c TYPES/c/*.c -llcm -o listener
 #include <lcm/lcm.h>
+#include <maploop_lcm_nav_state_t.h>
 #include <stdio.h>
-
-#include "maploop_lcm_nav_state_t.h"
 
 static void print(const lcm_recv_buf_t* buffer, const char* channel, const maploop_lcm_nav_state_t* s, void* user) {
   (void)buffer, (void)channel, (void)user;
