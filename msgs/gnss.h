@@ -32,7 +32,7 @@ struct GnssFix : Sample {
   Time velocity_stamp{};  // some receivers deliver a velocity older than their position
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();         // m/s
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // m^2/s^2
-  std::optional<GnssIncrement> increment;  // inside the vehicle only, of a receiver that is carried
+  std::optional<GnssIncrement> increment;                         // of a receiver that is carried
 
   // Returns the fix as of a receiver that is not carried.
   GnssFix alone() const {

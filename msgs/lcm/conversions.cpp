@@ -86,6 +86,14 @@ void convert(auto copy, Is<WheelSpeed> auto& wheel, auto& m) {
 }
 MAPLOOP_CONVERSIONS(WheelSpeed, maploop_lcm::wheel_speed_t)
 
+void convert(auto copy, Is<GnssIncrement> auto& increment, auto& m) {
+  copy(increment.position, m.position);
+  copy(increment.position_covariance, m.position_covariance);
+  copy(increment.velocity_enu, m.velocity_enu);
+  copy(increment.velocity_covariance, m.velocity_covariance);
+  copy(increment.growth, m.growth);
+}
+
 void convert(auto copy, Is<GnssFix> auto& fix, auto& m) {
   copy.header(fix, m.header);
   copy.place(fix.position, m.latitude, m.longitude, m.height);
@@ -93,6 +101,12 @@ void convert(auto copy, Is<GnssFix> auto& fix, auto& m) {
   copy(fix.velocity_stamp, m.velocity_stamp_ns);
   copy(fix.velocity_enu, m.velocity_enu);
   copy(fix.velocity_covariance, m.velocity_covariance);
+  if constexpr (decltype(copy)::to_message) {
+    m.carried = fix.increment.has_value();
+  } else if (m.carried) {
+    fix.increment.emplace();
+  }
+  if (fix.increment) convert(copy, *fix.increment, m.increment);
 }
 MAPLOOP_CONVERSIONS(GnssFix, maploop_lcm::gnss_fix_t)
 
