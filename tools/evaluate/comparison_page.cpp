@@ -16,35 +16,8 @@ namespace {
 using nlohmann::json;
 using Indices = std::vector<std::size_t>;
 
-constexpr std::size_t stretches = 1500;  // of a run that is drawn
-
-// Returns which of the poses are drawn: all, or of each stretch the first one and those with the
-// smallest and the largest value of each series.
-Indices thinned(std::size_t count, const std::vector<const std::vector<double>*>& series) {
-  Indices kept;
-  const std::size_t length = std::max<std::size_t>(1, count / stretches);
-  for (std::size_t begin = 0; begin < count; begin += length) {
-    const std::size_t end = std::min(begin + length, count);
-    kept.push_back(begin);
-    for (const auto* values : series) {
-      const auto at = [&](std::size_t i) {
-        return values->begin() + static_cast<std::ptrdiff_t>(i);
-      };
-      const auto [low, high] = std::minmax_element(at(begin), at(end));
-      kept.push_back(static_cast<std::size_t>(low - values->begin()));
-      kept.push_back(static_cast<std::size_t>(high - values->begin()));
-    }
-  }
-  kept.push_back(count - 1);
-  std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-  return kept;
-}
-
 json chosen(const std::vector<double>& values, const Indices& kept) {
-  std::vector<double> some;
-  for (const std::size_t i : kept) some.push_back(values[i]);
-  return web::with_seven_digits(some);
+  return web::with_seven_digits(web::chosen(values, kept));
 }
 
 // Positions seen from above, in metres from the truth's first: for a camera's frame right and
@@ -88,7 +61,7 @@ json json_of(const std::vector<ErrorBin>& bins) {
 json json_of(const RunErrors& run, const TruthTrack& truth, const Plane& plane,
              const std::vector<double>& lengths) {
   const Indices kept =
-      thinned(run.absolute.size(), {&run.horizontal, &run.vertical, &run.absolute});
+      web::thinned(run.absolute.size(), {&run.horizontal, &run.vertical, &run.absolute});
   Indices frames;
   for (const std::size_t i : kept) frames.push_back(run.matched.frames[i]);
   std::vector<double> sorted = run.absolute, shares;
@@ -116,7 +89,7 @@ json json_of(const RunErrors& run, const TruthTrack& truth, const Plane& plane,
 }
 
 json json_of(const TruthTrack& truth, const Plane& plane) {
-  const Indices kept = thinned(truth.way.size(), {});
+  const Indices kept = web::thinned(truth.way.size(), {});
   json j = plane.json_of(truth.trajectory.poses, kept);
   j.update({{"name", truth.name},
             {"time", chosen(truth.time, kept)},
@@ -150,8 +123,7 @@ std::string to_html(const Comparison& c) {
     is_thinned |= data["runs"].back()["x"].size() < run.absolute.size();
   }
   web::Page page(fmt::format("{} run{} against {}", c.runs.size(), c.runs.size() == 1 ? "" : "s",
-                             c.truth.name),
-                 web::Page::Script::comparison);
+                             c.truth.name));
   page.add(
           web::paragraph(fmt::format("{} poses of the truth, {:.1f} m. Alignment: {}. Figures are "
                                      "of all poses{}.",

@@ -32,6 +32,7 @@ struct PppOptions {
   std::optional<double> mask;
   bool broadcast = false, ecef = false;
   std::vector<std::string> settings;
+  std::vector<std::filesystem::path> compared;
   std::filesystem::path map, config, pos, nmea, geojson, kml, residuals, html, json, heights;
 };
 
@@ -101,9 +102,25 @@ gnss::RunOptions run_options(const PppOptions& options, const vehicle::PppConfig
   return run;
 }
 
+// The solutions that a run gives beside its own.
+std::vector<gnss::OtherSolution> by_products(const gnss::PppRun& run, bool on_map) {
+  if (run.direction() == gnss::Direction::smoothed) return {{"forward"}, {"backward"}};
+  if (on_map) return {{"without the map"}};
+  return {};
+}
+
+void add_by_products(const gnss::PppRun& run, std::vector<gnss::OtherSolution>& others) {
+  if (others.size() == 2) {
+    for (std::size_t i = 0; i < 2; ++i) others[i].add(run.both_ways()[i]);
+  } else if (others.size() == 1) {
+    others[0].add(run.filter().map_free());
+  }
+}
+
 gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double integrity_risk,
                         bool on_map, ppp::GpsTime first) {
   gnss::PppResult r;
+  r.others = by_products(run, on_map);
   if (!options.truth.empty()) {
     r.truth = std::make_unique<gnss::Truth>(options.truth, first);
     r.score = std::make_unique<gnss::Score>(*r.truth, integrity_risk);
@@ -119,10 +136,12 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
     if (r.score) r.score->add(s);
     if (r.without_map) r.without_map->add(run.filter().map_free());
     if (r.comparison) r.comparison->add(s, run.filter().map_free());
+    add_by_products(run, r.others);
     r.matched += run.map_step().way_id.has_value();
     r.solutions.push_back(s);
   });
   if (r.solutions.empty()) throw std::runtime_error("no epoch between --start and --end");
+  for (const auto& file : options.compared) r.others.push_back(gnss::read_solution(file));
   return r;
 }
 
@@ -138,8 +157,8 @@ void write_files(const PppOptions& options, const gnss::PppRun& run, const gnss:
   write(options.kml, [&] { return gnss::to_kml(r.solutions); });
   write(options.residuals, [&] { return gnss::to_residual_csv(r.solutions); });
   write(options.html, [&] {
-    return gnss::to_page("PPP of " + std::filesystem::path(name).filename().string(), summary,
-                         r.solutions, r.score.get(), r.without_map.get(), integrity_risk);
+    return gnss::to_page("PPP of " + std::filesystem::path(name).filename().string(), summary, r,
+                         integrity_risk);
   });
   if (!options.json.empty()) write_json_file(options.json, gnss::to_json(run, r, on_map));
 }
@@ -248,7 +267,12 @@ void add_ppp(CLI::App& app, Command& command) {
   sub->add_option("--kml", options->kml, "Write the way as KML")->check(writable_file());
   sub->add_option("--csv", options->residuals, "Write residuals, a row a satellite and epoch")
       ->check(writable_file());
-  sub->add_option("--html", options->html, "Write a page with plots")->check(writable_file());
+  auto* html =
+      sub->add_option("--html", options->html, "Write a page with plots")->check(writable_file());
+  sub->add_option("--compare", options->compared,
+                  "Another solution of the same epochs, RTKLIB's .pos, which the page subtracts")
+      ->needs(html)
+      ->check(existing_file());
   sub->add_option("--json", options->json, "Write the figures as JSON")->check(writable_file());
   sub->footer(
       "Examples:\n"

@@ -1,52 +1,140 @@
 #include "tools/ppp/page.h"
 
 #include <fmt/format.h>
+
 #include <cmath>
+#include <functional>
 #include <map>
+#include <optional>
 
 #include "msgs/frames.h"
 #include "ppp/models/geodesy.h"
+#include "tools/ppp/page_data.h"
 #include "tools/web/html.h"
 #include "tools/web/page.h"
+#include "tools/web/table.h"
 
 namespace maploop::gnss {
 
 using namespace maploop::ppp;
+using web::Event;
+using web::heading;
 using web::Line;
 using web::Plot;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using Rows = std::vector<EpochRow>;
 
-double minutes(GpsTime t, GpsTime first) {
-  return to_seconds(t - first) / 60.0;
-}
+constexpr const char* gps_time = "GPS time";
 
-void add(Line& line, double x, double y) {
-  line.x.push_back(x);
-  line.y.push_back(y);
-}
+// A line of a quantity of the epochs; unknown where it has none.
+struct Quantity {
+  std::string name;
+  std::function<double(const PppSolution&)> value;
+};
 
-Plot errors(const Score& score, GpsTime first) {
-  Plot plot{"Error against the truth", "minutes", "m", {}, false};
-  const char* names[3] = {"east", "north", "up"};
-  for (int i = 0; i < 3; ++i) {
-    Line line{names[i], {}, {}};
-    for (const ErrorAt& e : score.errors()) add(line, minutes(e.time, first), e.enu[i]);
-    plot.lines.push_back(std::move(line));
+Plot over_time(const std::string& title, const std::string& unit, const Rows& rows,
+               const std::vector<Quantity>& quantities, Line::Look look = Line::Look::solid) {
+  Plot plot{title, gps_time, unit};
+  plot.over_time = true;
+  for (const Quantity& q : quantities) {
+    std::vector<double> seconds, values;
+    for (const EpochRow& row : rows) {
+      seconds.push_back(row.second);
+      values.push_back(row.solution ? q.value(*row.solution) : unknown);
+    }
+    const auto kept = web::thinned(values.size(), {&values});
+    plot.lines.push_back({q.name, web::chosen(seconds, kept), web::chosen(values, kept), look});
   }
+  return plot;
+}
+
+Plot satellites(const Rows& rows) {
+  return over_time(
+      "Satellites", "number", rows,
+      {{"measured", [](const auto& s) { return static_cast<double>(s.satellites.size()); }},
+       {"used", [](const auto& s) { return s.satellites_used; }},
+       {"integer ambiguities", [](const auto& s) { return s.integers.used; }}},
+      Line::Look::steps);
+}
+
+Plot dilution(const Rows& rows) {
+  return over_time("Dilution of precision", "1", rows,
+                   {{"position", [](const auto& s) { return dilutions(s).position; }},
+                    {"horizontal", [](const auto& s) { return dilutions(s).horizontal; }},
+                    {"vertical", [](const auto& s) { return dilutions(s).vertical; }}});
+}
+
+Plot zenith_delay(const Rows& rows) {
+  std::vector<double> seconds, delay, low, high;
+  for (const EpochRow& row : rows) {
+    const bool known = row.solved() && row.solution->zenith_delay > 0.0;
+    seconds.push_back(row.second);
+    delay.push_back(known ? row.solution->zenith_delay : unknown);
+    const double sigma = known ? row.solution->zenith_delay_sigma : unknown;
+    low.push_back(delay.back() - sigma);
+    high.push_back(delay.back() + sigma);
+  }
+  const auto kept = web::thinned(delay.size(), {&delay});
+  const auto some = [&](const std::vector<double>& values) { return web::chosen(values, kept); };
+  Plot plot{"Zenith delay of the troposphere", gps_time, "m"};
+  plot.lines = {{"zenith delay", some(seconds), some(delay)}};
+  plot.bands = {{"1 sigma", some(seconds), some(low), some(high)}};
+  plot.over_time = true;
+  return plot;
+}
+
+// A line for each status; an epoch ends that of the status before.
+Plot ground_track(const Rows& rows, const PppResult& result) {
+  Plot plot{"Way", "east, m", "north, m", {}, true};
+  std::optional<Eigen::Vector3d> origin;
+  Eigen::Matrix3d R;
+  Line truth{"truth"};
+  std::map<PppStatus, Line> lines;
+  PppStatus before = PppStatus::none;
+  const auto add = [](Line& line, double second, const Eigen::Vector3d& enu) {
+    line.add(enu.x(), enu.y());
+    line.time.push_back(second);
+  };
+  const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(unknown);
+  const std::size_t step = 1 + rows.size() / 10'000;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const EpochRow& row = rows[i];
+    if (row.solution != nullptr && i % step != 0) continue;
+    const PppStatus status = row.solved() ? row.solution->status : PppStatus::none;
+    if (status != PppStatus::none && !origin) {
+      origin = row.solution->position;
+      R = rotation_enu_ecef(geodetic_from_ecef(*origin));
+    }
+    const auto enu = [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(R * (p - *origin)); };
+    if (status != PppStatus::none) lines.try_emplace(status, Line{std::string(to_string(status))});
+    for (auto& [of, line] : lines) {
+      const bool ends = of == before && status != PppStatus::none;
+      if (of == status || ends) {
+        add(line, row.second, enu(row.solution->position));
+      } else if (!line.x.empty() && std::isfinite(line.x.back())) {
+        add(line, row.second, nowhere);
+      }
+    }
+    before = status;
+    if (!result.truth || row.solution == nullptr || !origin) continue;
+    const auto place = result.truth->at(row.solution->time);
+    if (place || !truth.x.empty()) add(truth, row.second, place ? enu(*place) : nowhere);
+  }
+  if (!truth.x.empty()) plot.lines.push_back(std::move(truth));
+  for (auto& [status, line] : lines) plot.lines.push_back(std::move(line));
   return plot;
 }
 
 // Of epochs that move.
 Plot across(const Score& score, const Score& without_map, GpsTime first) {
-  Plot plot{"Error across the way", "minutes", "m", {}, false};
+  Plot plot{"Error across the way", gps_time, "m"};
+  plot.over_time = true;
   const auto line_of = [&](const char* name, const Score& of) {
-    Line line{name, {}, {}};
-    for (const ErrorAt& e : of.errors()) {
-      add(line, minutes(e.time, first), e.moves ? e.travel.y() : nan);
-    }
+    Line line{name};
+    for (const ErrorAt& e : of.errors())
+      line.add(to_seconds(e.time - first), e.moves ? e.travel.y() : unknown);
     return line;
   };
   plot.lines = {line_of("with the map", score), line_of("without", without_map)};
@@ -57,16 +145,13 @@ Plot across(const Score& score, const Score& without_map, GpsTime first) {
 Plot stanford(const Score& score, double integrity_risk) {
   Plot plot{fmt::format("Stanford plot: {} of {} errors beyond their level, risk {:g}",
                         score.misleading(), 3 * score.errors().size(), integrity_risk),
-            "error, m",
-            "protection level, m",
-            {},
-            false};
+            "error, m", "protection level, m"};
   const char* names[3] = {"along", "across", "up"};
   double largest = 0.0;
   for (int i = 0; i < 3; ++i) {
     Line line{names[i], {}, {}, Line::Look::points};
     for (const ErrorAt& e : score.errors()) {
-      add(line, std::abs(e.travel[i]), e.protection[i]);
+      line.add(std::abs(e.travel[i]), e.protection[i]);
       largest = std::max(largest, std::abs(e.travel[i]));
     }
     plot.lines.push_back(std::move(line));
@@ -75,100 +160,28 @@ Plot stanford(const Score& score, double integrity_risk) {
   return plot;
 }
 
-Plot ground_track(const Solutions& solutions) {
-  Plot plot{"Way", "east, m", "north, m", {Line{"position", {}, {}}}, true};
-  const PppSolution* origin = nullptr;
-  for (const PppSolution& s : solutions) {
-    if (s.status == PppStatus::none) continue;
-    if (!origin) origin = &s;
-    const Eigen::Vector3d enu =
-        rotation_enu_ecef(geodetic_from_ecef(origin->position)) * (s.position - origin->position);
-    add(plot.lines[0], enu.x(), enu.y());
-  }
-  return plot;
-}
-
-Plot deviations(const Solutions& solutions, GpsTime first) {
-  Plot plot{"Formal standard deviation", "minutes", "m", {}, false};
-  Line horizontal{"horizontal", {}, {}}, up{"up", {}, {}};
-  for (const PppSolution& s : solutions) {
-    if (s.status == PppStatus::none) continue;
-    const Eigen::Matrix3d R = rotation_enu_ecef(geodetic_from_ecef(s.position));
-    const Eigen::Matrix3d P = R * s.covariance * R.transpose();
-    add(horizontal, minutes(s.time, first), std::sqrt(P(0, 0) + P(1, 1)));
-    add(up, minutes(s.time, first), std::sqrt(P(2, 2)));
-  }
-  plot.lines = {horizontal, up};
-  return plot;
-}
-
-Plot satellites(const Solutions& solutions, GpsTime first) {
-  Plot plot{"Satellites", "minutes", "number", {}, false};
-  Line used{"used", {}, {}}, measured{"measured", {}, {}}, integers{"integer ambiguities", {}, {}};
-  for (const PppSolution& s : solutions) {
-    add(used, minutes(s.time, first), s.satellites_used);
-    add(integers, minutes(s.time, first), s.integers.used);
-    add(measured, minutes(s.time, first), static_cast<double>(s.satellites.size()));
-  }
-  plot.lines = {used, measured, integers};
-  return plot;
-}
-
-// One line a system, broken between satellites.
-template <class Value>
-Plot per_system(const std::string& title, const Solutions& solutions, GpsTime first,
-                Value&& value) {
-  Plot plot{title, "minutes", "m", {}, false};
-  std::map<Satellite, Line> lines;
-  for (const PppSolution& s : solutions) {
-    for (const SatelliteReport& r : s.satellites) {
-      const double v = value(r);
-      if (std::isfinite(v)) add(lines[r.satellite], minutes(s.time, first), v);
+// Missing epochs, and what the filter said, for as long as it said it.
+std::vector<Event> events(const Rows& rows) {
+  std::vector<Event> list;
+  std::string said;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const EpochRow& row = rows[i];
+    if (row.solution == nullptr) {
+      list.push_back(
+          {rows[i - 1].second, rows[i + 1].second, Event::Level::warning, "no observations"});
+      said.clear();
+      continue;
     }
-  }
-  std::map<System, Line> systems;
-  for (const auto& [satellite, line] : lines) {
-    Line& all = systems[satellite.system];
-    all.name = std::string{letter(satellite.system)};
-    all.x.insert(all.x.end(), line.x.begin(), line.x.end());
-    all.y.insert(all.y.end(), line.y.begin(), line.y.end());
-    add(all, nan, nan);
-  }
-  for (auto& [system, line] : systems) plot.lines.push_back(std::move(line));
-  return plot;
-}
-
-// North is up, the horizon at 90.
-Plot sky(const Solutions& solutions) {
-  Plot plot{"Sky: degrees from the zenith", "east", "north", {}, true};
-  Line horizon{"horizon", {}, {}};
-  for (int a = 0; a <= 360; a += 5) {
-    add(horizon, 90.0 * std::sin(radians(a)), 90.0 * std::cos(radians(a)));
-  }
-  plot.lines.push_back(horizon);
-  std::map<Satellite, Line> lines;
-  for (const PppSolution& s : solutions) {
-    for (const SatelliteReport& r : s.satellites) {
-      if (r.elevation <= 0.0) continue;
-      const double zenith = 90.0 - degrees(r.elevation);
-      add(lines[r.satellite], zenith * std::sin(r.azimuth), zenith * std::cos(r.azimuth));
+    const std::string& message = row.solution->message;
+    if (!message.empty() && message == said) {
+      list.back().to = row.second;
+    } else if (!message.empty()) {
+      list.push_back({row.second, row.second,
+                      row.solved() ? Event::Level::note : Event::Level::error, message});
     }
+    said = message;
   }
-  std::map<System, Line> systems;
-  for (const auto& [satellite, line] : lines) {
-    Line& all = systems[satellite.system];
-    all.name = std::string{letter(satellite.system)};
-    for (std::size_t i = 0; i < line.x.size(); ++i) {
-      // A satellite that sets and rises again leaves a gap.
-      if (i > 0 && std::hypot(line.x[i] - line.x[i - 1], line.y[i] - line.y[i - 1]) > 8.0) {
-        add(all, nan, nan);
-      }
-      add(all, line.x[i], line.y[i]);
-    }
-    add(all, nan, nan);
-  }
-  for (auto& [system, line] : systems) plot.lines.push_back(std::move(line));
-  return plot;
+  return list;
 }
 
 std::string refusals(const Solutions& solutions) {
@@ -179,41 +192,43 @@ std::string refusals(const Solutions& solutions) {
       if (r.slip != PppSlip::none) ++counts["slip: " + std::string(to_string(r.slip))];
     }
   }
-  std::string text =
-      "<table><tr><th>refused, or begun anew</th><th>satellites and epochs</th></tr>";
-  for (const auto& [why, count] : counts) {
-    text += "<tr><td>" + web::escaped(why) + "</td><td>" + std::to_string(count) + "</td></tr>";
-  }
-  return text + "</table>";
+  std::vector<web::Row> rows;
+  for (const auto& [why, count] : counts) rows.push_back({why, std::to_string(count)});
+  return web::table({"refused, or begun anew", "satellites and epochs"}, rows);
 }
 
 }  // namespace
 
-std::string to_page(const std::string& heading, const std::vector<std::string>& summary,
-                    const Solutions& solutions, const Score* score, const Score* without_map,
-                    double integrity_risk) {
-  std::string body;
-  for (const std::string& line : summary) body += "<p>" + web::escaped(line) + "</p>";
-  body += refusals(solutions);
-  std::vector<Plot> plots;
-  if (!solutions.empty()) {
-    const GpsTime first = solutions.front().time;
-    if (score && !score->errors().empty()) {
-      plots.push_back(errors(*score, first));
-      if (without_map) plots.push_back(across(*score, *without_map, first));
-      plots.push_back(stanford(*score, integrity_risk));
-    }
-    plots.push_back(ground_track(solutions));
-    plots.push_back(deviations(solutions, first));
-    plots.push_back(satellites(solutions, first));
-    plots.push_back(per_system("Residuals of phase", solutions, first, [](const auto& r) {
-      return r.phase_used ? r.phase_residual : nan;
-    }));
-    plots.push_back(per_system("Residuals of code", solutions, first,
-                               [](const auto& r) { return r.code_used ? r.code_residual : nan; }));
-    plots.push_back(sky(solutions));
+std::string to_page(const std::string& title, const std::vector<std::string>& summary,
+                    const PppResult& result, double integrity_risk) {
+  const Rows rows = epoch_rows(result.solutions);
+  const GpsTime first = result.solutions.front().time;
+  const double time_of_day = std::fmod(seconds_of_week(first), 86'400.0);
+  web::Page page(title);
+  page.add("<section class=\"verdict\">");
+  for (const std::string& line : summary) page.add(web::paragraph(line));
+  page.add("</section>\n").add_contents().add_timeline(events(rows), time_of_day);
+  page.add(heading("Position") +
+           web::paragraph("East, north and up, coloured by the status of each epoch. Drag across a "
+                          "chart to look at a part of the time; a double click shows all of it."))
+      .add_place("positions", positions_json(rows, result))
+      .add_overview(ground_track(rows, result));
+  if (result.score && !result.score->errors().empty()) {
+    std::vector<Plot> plots;
+    if (result.without_map) plots.push_back(across(*result.score, *result.without_map, first));
+    plots.push_back(stanford(*result.score, integrity_risk));
+    page.add(heading("Protection levels")).add(plots);
   }
-  return web::Page(heading).add(body).add(plots).text();
+  page.add(heading("Number and geometry of the satellites"))
+      .add({satellites(rows), dilution(rows)})
+      .add(heading("Sky, signals and residuals"))
+      .add_place("satellites", satellites_json(rows))
+      .add(heading("Troposphere"))
+      .add({zenith_delay(rows)})
+      .add(heading("Events"))
+      .add_events()
+      .add(refusals(result.solutions));
+  return page.text();
 }
 
 }  // namespace maploop::gnss

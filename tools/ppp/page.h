@@ -1,18 +1,16 @@
-// A page about a run: error against the truth and its protection levels, satellites, residuals,
-// sky.
+// A page about a run, on one time line: positions relative to the truth, their mean or another
+// solution, satellites, sky, residuals, atmosphere, and protection levels.
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "tools/ppp/position_files.h"
-#include "tools/ppp/score.h"
+#include "tools/ppp/summary.h"
 
 namespace maploop::gnss {
 
-// `score` may be none, and so may that of the same filter without the map; `integrity_risk` is that
-// of its levels. `summary`: lines of text that stand above.
+// `summary`: lines of text that stand above. `integrity_risk` is that of the score's levels.
 std::string to_page(const std::string& heading, const std::vector<std::string>& summary,
-                    const Solutions& solutions, const Score* score, const Score* without_map,
-                    double integrity_risk);
+                    const PppResult& result, double integrity_risk);
 
 }  // namespace maploop::gnss

@@ -27,7 +27,10 @@ void PppRun::process(const std::function<void(const PppSolution&)>& sink) {
       solution = step(filter_, epoch);
       step_ = map_ ? map_->close(filter_) : MapStep{};
     }
-    if (options_.direction == Direction::smoothed) solution = combined(solution, backward.back());
+    if (options_.direction == Direction::smoothed) {
+      both_ways_ = {std::move(solution), std::move(backward.back())};
+      solution = combined(both_ways_[0], both_ways_[1]);
+    }
     if (!backward.empty()) backward.pop_back();
     count_missing(solution);
     sink(solution);

@@ -1,6 +1,7 @@
 // A run of the PPP filter over files.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -38,10 +39,11 @@ class PppRun {
   // Calls the sink for every epoch between start and end, in the order of time.
   void process(const std::function<void(const ppp::PppSolution&)>& sink);
 
-  // The sink may call these two for the epoch that it is given. filter() is the filter that runs
-  // forward.
+  // The sink may call these three for the epoch that it is given. filter() is the filter that runs
+  // forward. both_ways() is what a smoothed solution is combined of, forward and backward.
   const MapStep& map_step() const { return step_; }
   const ppp::MapAidedFilter& filter() const { return filter_; }
+  const std::array<ppp::PppSolution, 2>& both_ways() const { return both_ways_; }
 
   Direction direction() const { return options_.direction; }
   const ppp::PppSetup& setup() const { return setup_; }
@@ -61,6 +63,7 @@ class PppRun {
   ppp::MapAidedFilter filter_;
   std::optional<MapLoop> map_;
   MapStep step_;
+  std::array<ppp::PppSolution, 2> both_ways_;
   std::map<ppp::Satellite, std::pair<int, std::string>> missing_;
   double seconds_ = 0.0;
 };

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "tools/ppp/map_comparison.h"
-#include "tools/ppp/page.h"
+#include "tools/ppp/other_solution.h"
+#include "tools/ppp/position_files.h"
 #include "tools/ppp/run.h"
 #include "tools/ppp/score.h"
 
@@ -23,6 +24,7 @@ struct PppResult {
   std::unique_ptr<Score> score, without_map;  // where there is a truth; the second: and a map
   std::unique_ptr<MapComparison> comparison;  // as the second
   std::optional<ppp::GpsTime> scored_from;
+  std::vector<OtherSolution> others;  // forward and backward, without the map, of files
 };
 
 std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, double integrity_risk,

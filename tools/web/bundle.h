@@ -9,10 +9,6 @@ namespace maploop::web {
 std::string_view page_script();
 std::string_view page_style();
 
-// For the page of `maploop evaluate` with several runs.
-std::string_view comparison_script();
-std::string_view comparison_style();
-
 // For the live dashboard.
 std::string_view dashboard_script();
 std::string_view dashboard_style();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 
 #include "msgs/base64.h"
@@ -29,7 +30,13 @@ std::string escaped(std::string_view text) {
 }
 
 std::string heading(std::string_view text) {
-  return "<h2>" + escaped(text) + "</h2>\n";
+  return "<h2 id=\"" + heading_id(text) + "\">" + escaped(text) + "</h2>\n";
+}
+
+std::string heading_id(std::string_view text) {
+  std::string id(text);
+  for (char& c : id) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
+  return id;
 }
 
 std::string paragraph(std::string_view text) {

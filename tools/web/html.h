@@ -12,9 +12,11 @@ namespace maploop::web {
 std::string escaped(std::string_view text);
 
 // Return elements that contain plain text.
-std::string heading(std::string_view text);
+std::string heading(std::string_view text);  // with the id heading_id(text), for links
 std::string paragraph(std::string_view text);
 std::string preformatted(std::string_view text);
+
+std::string heading_id(std::string_view text);
 
 // Returns HTML that unfolds at a click on its summary, which is plain text.
 std::string folded(std::string_view summary, std::string_view html);

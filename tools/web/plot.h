@@ -11,8 +11,9 @@ struct Line {
   enum class Look { solid, dashed, steps, points };
 
   std::string name;
-  std::vector<double> x, y;  // same lengths; a value that is not finite breaks the line
+  std::vector<double> x = {}, y = {};  // same lengths; a value that is not finite breaks the line
   Look look = Look::solid;
+  std::vector<double> time = {};  // of each place on a map, as the x of plots over time; or empty
 
   void add(double at_x, double at_y) {
     x.push_back(at_x);
@@ -40,6 +41,17 @@ struct Plot {
   bool x_log = false, y_log = false;
   std::vector<Band> bands = {};
   std::optional<Mark> x_mark = std::nullopt;
+  bool over_time = false;  // x is finite, increases, and follows the timeline of the page, if any
+};
+
+// What happened at a time or for a while, on the timeline of a page.
+struct Event {
+  enum class Level { note, warning, error };
+
+  double from = 0.0, to = 0.0;  // as the x of plots over time
+  Level level = Level::note;
+  std::string text;
+  std::string section = {};  // text of the heading beneath which there is more; empty: none
 };
 
 }  // namespace maploop::web

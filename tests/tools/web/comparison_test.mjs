@@ -5,14 +5,10 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { pathToFileURL } from "node:url";
 import { after, before, test } from "node:test";
 
-import { chromium } from "playwright-core";
+import { cursors, drag, launch, maploop, open, pictures, reachedByKeys, slider, stretch, testWholePage, time } from "./pages.mjs";
 
-import { assertAccessible } from "./accessible.mjs";
-
-const [maploop, pictures, executablePath] = process.argv.slice(2);
 const file = join(pictures, "comparison.html");
 
 // Poses of a camera in east, north, up on a bend: it stands, then drives, and each run drifts in its own way.
@@ -33,7 +29,7 @@ function trajectory(drift) {
 let browser;
 
 before(async () => {
-  browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu"] });
+  browser = await launch();
   const write = (name, drift) => {
     writeFileSync(join(pictures, name), trajectory(drift));
     return join(pictures, name);
@@ -50,40 +46,12 @@ before(async () => {
 
 after(() => browser?.close());
 
-async function open(width, colorScheme = "light") {
-  const page = await browser.newPage({ viewport: { width, height: 900 }, colorScheme });
-  page.on("pageerror", (e) => assert.fail(`the page's script failed: ${e}`));
-  page.on("console", (m) => assert.notEqual(m.type(), "error", m.text()));
-  page.on("request", (r) => assert.match(r.url(), /^(file|data):/, "nothing is asked for"));
-  await page.goto(pathToFileURL(file).href);
-  return page;
-}
-
-const isDrawn = (canvas) =>
-  canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((v) => v > 0);
-
-for (const colours of ["light", "dark"])
-  for (const width of [390, 1024, 1920])
-    test(`all of it is there ${width} px wide, ${colours}`, async () => {
-      const page = await open(width, colours);
-      await page.waitForTimeout(300);
-      const canvases = await page.$$("canvas");
-      assert.equal(canvases.length, 9, "a plane, six linked plots, a distribution, segments");
-      for (const canvas of canvases) assert.ok(await canvas.evaluate(isDrawn));
-      const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-      assert.ok(overflow <= 0, `${overflow} px beyond the edge`);
-      await page.screenshot({ path: join(pictures, `comparison-${width}-${colours}.png`), fullPage: true });
-      await assertAccessible(page);
-      await page.close();
-    });
-
-const cursors = (page) =>
-  page.$$eval("figure[data-of] .u-cursor-x", (all) => all.map((e) => new DOMMatrix(e.style.transform).m41));
-const time = async (page) => Number(await page.getByRole("slider").inputValue());
+const linked = "figure[data-of]"; // plots
+testWholePage(() => browser, file, "comparison", { canvas: 9, [linked]: 6 });
 
 test("the cursor of one plot moves those of all, the values and the place on the way", async () => {
-  const page = await open(1024);
-  const before = { cursors: await cursors(page), values: await page.locator(".readout").innerText() };
+  const page = await open(browser, file, 1024);
+  const before = { cursors: await cursors(page, linked), values: await page.locator(".readout").innerText() };
   const map = page.locator("canvas.map");
   const shown = () => map.evaluate((canvas) => canvas.toDataURL());
   const place = await shown();
@@ -91,7 +59,7 @@ test("the cursor of one plot moves those of all, the values and the place on the
   await plot.scrollIntoViewIfNeeded();
   await plot.hover({ position: { x: 200, y: 100 } });
   await page.waitForTimeout(200);
-  const now = await cursors(page);
+  const now = await cursors(page, linked);
   assert.equal(now.length, 6);
   now.forEach((x, i) => assert.notEqual(x, before.cursors[i], `plot ${i}`));
   assert.notEqual(await page.locator(".readout").innerText(), before.values);
@@ -107,37 +75,24 @@ test("the cursor of one plot moves those of all, the values and the place on the
 });
 
 test("a part of the drive that is dragged is shown by all plots, and a button shows all again", async () => {
-  const page = await open(1024);
-  const slider = page.getByRole("slider");
-  const stretch = () => slider.evaluate((s) => Number(s.max) - Number(s.min));
-  const whole = await stretch();
-  const plot = page.locator("figure[data-of=absolute-time] .u-over");
-  await plot.scrollIntoViewIfNeeded();
-  const box = await plot.boundingBox();
+  const page = await open(browser, file, 1024);
+  const whole = await stretch(page);
   const others = page.locator("figure[data-of=vertical-way] canvas");
   const before = await others.evaluate((canvas) => canvas.toDataURL());
-  await page.mouse.move(box.x + 0.3 * box.width, box.y + 50);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 0.6 * box.width, box.y + 50, { steps: 5 });
-  await page.mouse.up();
-  await page.waitForTimeout(200);
-  assert.ok(Math.abs((await stretch()) / whole - 0.3) < 0.02);
+  await drag(page, page.locator("figure[data-of=absolute-time] .u-over"), 0.3, 0.6);
+  assert.ok(Math.abs((await stretch(page)) / whole - 0.3) < 0.02);
   assert.notEqual(await others.evaluate((canvas) => canvas.toDataURL()), before);
   await page.getByRole("button", { name: "All", exact: true }).click();
-  assert.equal(await stretch(), whole);
+  assert.equal(await stretch(page), whole);
   await page.close();
 });
 
 test("keys reach every control, move the cursor, and hide a run", async () => {
-  const page = await open(1024);
-  const reached = new Set();
-  for (let i = 0; i < 40; ++i) {
-    await page.keyboard.press("Tab");
-    reached.add(await page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? (document.activeElement.innerText || document.activeElement.type)));
-  }
-  for (const name of ["stereo_alone.tum", "range", "All", "checkbox", "Copy as LaTeX", "Light or dark"])
-    assert.ok(reached.has(name), `${name} in ${[...reached].join(", ")}`);
-  await page.getByRole("slider").focus();
+  const page = await open(browser, file, 1024);
+  const reached = await reachedByKeys(page, 40);
+  for (const name of ["stereo_alone.tum", "Time", "All", "Colour the way (last run on top) by", "Copy as LaTeX", "Light or dark"])
+    assert.ok([...reached].some((r) => r.startsWith(name)), `${name} in ${[...reached].join(", ")}`);
+  await slider(page).focus();
   const at = await time(page);
   await page.keyboard.press("PageUp");
   assert.ok((await time(page)) > at);
@@ -154,7 +109,7 @@ test("keys reach every control, move the cursor, and hide a run", async () => {
 });
 
 test("the switch changes light to dark and back; paper is light", async () => {
-  const page = await open(1024, "dark");
+  const page = await open(browser, file, 1024, "dark");
   const colour = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   const dark = await colour();
   await page.getByRole("button", { name: "Light or dark" }).click();

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "tools/web/bundle.h"
+#include "tools/web/html.h"
 #include "tools/web/table.h"
 
 namespace maploop::web {
@@ -63,6 +65,28 @@ TEST(Page, NeedsNothingButABrowser) {
   EXPECT_EQ(page_style().find("url("), std::string::npos);
   EXPECT_EQ(page_script().find("</script"), std::string::npos) << "it would end there";
   EXPECT_NE(page_style().find("light-dark("), std::string::npos);
+}
+
+TEST(Page, ThinningKeepsExtremesAndGaps) {
+  std::vector<double> values(30'000, 1.0);
+  values[7'001] = 9.0;
+  values[15'013] = -9.0;
+  values[20'017] = values[20'018] = nan;
+  const auto kept = thinned(values.size(), {&values});
+  EXPECT_LT(kept.size(), 8'000U);
+  for (const std::size_t i : {0U, 7'001U, 15'013U, 20'017U, 29'999U})
+    EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), i)) << i;
+  EXPECT_EQ(chosen(values, {0, 7'001}), (std::vector<double>{1.0, 9.0}));
+  EXPECT_EQ(thinned(2'000, {}).size(), 2'000U);
+  EXPECT_TRUE(thinned(0, {}).empty());
+}
+
+TEST(Page, ContentsLeadToTheHeadings) {
+  const std::string page =
+      Page("a").add_contents().add(heading("Lost & found")).add(heading("Time")).text();
+  EXPECT_NE(page.find("<a href=\"#Lost---found\">Lost &amp; found</a>"), std::string::npos);
+  EXPECT_NE(page.find("<h2 id=\"Lost---found\">"), std::string::npos);
+  EXPECT_NE(page.find("<a href=\"#Time\">Time</a>"), std::string::npos);
 }
 
 TEST(Page, EachPictureSaysWhyItIsNotThere) {

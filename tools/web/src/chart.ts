@@ -33,8 +33,12 @@ function seriesOf(line: Line, token: string): uPlot.Series {
   };
 }
 
-function axis(label: string): uPlot.Axis {
+// Steps of an axis of seconds that is shown as times of the day.
+const timeSteps = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 21600, 43200];
+
+export function axis(label: string, text?: (value: number) => string): uPlot.Axis {
   return {
+    ...(text && { incrs: timeSteps, space: 80 }),
     label,
     labelSize: 22,
     labelFont: "12px system-ui",
@@ -42,7 +46,7 @@ function axis(label: string): uPlot.Axis {
     stroke: () => ink("soft"),
     grid: { stroke: () => ink("line"), width: 1 },
     ticks: { stroke: () => ink("line"), width: 1 },
-    values: (_, ticks) => ticks.map((v) => (v == null ? "" : `${Number(v.toPrecision(6))}`)),
+    values: (_, ticks) => ticks.map((v) => (v == null ? "" : text ? text(v) : `${Number(v.toPrecision(6))}`)),
   };
 }
 
@@ -80,29 +84,33 @@ export function drawChart(figure: HTMLElement, plot: Plot, more: Partial<uPlot.O
   const guessed = tokensOf(plot.lines.map((line) => line.name));
   const tokenOf = (i: number) => tokens[i] ?? guessed[i] ?? "soft";
   const bands = plot.bands ?? [];
+  const bandToken = (i: number) => bands[i]!.token ?? tokenOf(i);
   const edges = bands.flatMap((band, i): uPlot.Series[] => {
-    const edge = { stroke: () => `rgb(from ${ink(tokenOf(i))} r g b / 0.3)`, width: 1, points: { show: false } };
-    return [{ ...edge, label: `${band.name}, low`, class: "unnamed" }, { ...edge, label: band.name }];
+    const stroke = () => `rgb(from ${ink(bandToken(i))} r g b / 0.3)`;
+    const edge = { stroke, width: 1, points: { show: false }, auto: !band.is_clipped };
+    const half = (chart: uPlot, high: number | null, k: number, at: number | null) =>
+      high == null ? "–" : `± ${Number(((high - chart.data[k - 1]![at!]!) / 2).toPrecision(4))}`;
+    return [{ ...edge, label: `${band.name}, low`, class: "unnamed" }, { ...edge, label: band.name, value: half }];
   });
   const tables = [
     ...bands.map((band) => table(band.x, [band.low, band.high], log)),
     ...plot.lines.map((line) => table(line.x, [line.y], log)),
   ];
-  const size = () => ({ width: Math.max(figure.clientWidth, 200), height: 280 });
-  const axes = [axis(plot.x_label), { ...axis(plot.y_label), size: 56 }];
+  const size = () => ({ width: Math.max(figure.clientWidth, 200), height: plot.height ?? 280 });
+  const axes = [axis(plot.x_label, plot.x_text), { ...axis(plot.y_label), size: 56 }];
   if (log[0]) axes[0]!.filter = logarithmic;
   if (log[1]) axes[1]!.filter = logarithmic;
   const options: uPlot.Options = {
     ...size(),
-    series: [{ label: plot.x_label, value: (_, v) => (v == null ? "–" : `${Number(v.toPrecision(6))}`) }, ...edges,
+    series: [{ label: plot.x_label, value: (_, v) => (v == null ? "–" : plot.x_text ? plot.x_text(v) : `${Number(v.toPrecision(6))}`) }, ...edges,
       ...plot.lines.map((line, i) => seriesOf(line, tokenOf(i)))],
     bands: bands.map((_, i) => ({
       series: [2 * i + 2, 2 * i + 1],
-      fill: () => `rgb(from ${ink(tokenOf(i))} r g b / 0.15)`,
+      fill: () => `rgb(from ${ink(bandToken(i))} r g b / 0.15)`,
     })),
     axes,
     scales: { x: { time: false, distr: log[0] ? 3 : 1 }, y: { distr: log[1] ? 3 : 1 } },
-    legend: { markers: { width: 0, fill: (_, i) => `var(--${tokenOf(i > edges.length ? i - 1 - edges.length : (i - 1) >> 1)})` } },
+    legend: { markers: { width: 0, fill: (_, i) => `var(--${i > edges.length ? tokenOf(i - 1 - edges.length) : bandToken((i - 1) >> 1)})` } },
     plugins: plot.x_mark ? [{ hooks: { draw: (chart) => drawMark(chart, plot.x_mark!) } }] : [],
     ...more,
   };

@@ -1,59 +1,48 @@
-// The page of `maploop evaluate` with several runs: what they differ in, and where.
-import "../design/tokens.css";
-import "../design/base.css";
-import "./comparison.css";
+// The comparison of runs by `maploop evaluate`: what they differ in, and where.
+import type uPlot from "uplot";
 
 import { drawChart } from "./chart";
-import { nearest, type Component, type Data } from "./comparison_data";
+import { components, type Component, type Data } from "./comparison_data";
 import { bars, boxes } from "./distributions";
-import { button, element, table } from "./dom";
-import { components, LinkedCharts, names, type View } from "./linked_charts";
-import { themeSwitch } from "./palette";
+import { button, element, figureIn, region, table } from "./dom";
+import { linkedChart, type Axis } from "./linked_charts";
 import { Plane } from "./plane";
+import { between, nearest } from "./series";
+import { Timeline } from "./timeline";
 
-function figureIn(parent: HTMLElement, title: string): HTMLElement {
-  const figure = element("figure", parent);
-  element("figcaption", figure, title);
-  return figure;
-}
+const names: Record<Component, string> = { absolute: "3-D", horizontal: "horizontal", vertical: "vertical" };
 
 class ComparisonPage {
   private readonly tokens: string[];
   private readonly visible: boolean[];
-  private readonly view: View;
-  private readonly whole: [number, number];
+  private readonly timeline: Timeline;
   private readonly plane: Plane;
-  private readonly charts: LinkedCharts;
-  private readonly slider: HTMLInputElement;
+  private readonly charts: uPlot[] = [];
   private readonly readout: HTMLElement;
 
   constructor(
     private readonly data: Data,
     private readonly place: HTMLElement,
   ) {
-    const { time } = data.truth;
-    this.whole = [time[0]!, time[time.length - 1]!];
-    this.view = { at: this.whole[0], from: this.whole[0], to: this.whole[1] };
+    const { time, has_stamps } = data.truth;
+    const text = (at: number) => (has_stamps ? `${at.toFixed(2)} s` : `pose ${at.toFixed(0)}`);
+    this.timeline = new Timeline([time[0]!, time[time.length - 1]!], text);
     this.tokens = data.runs.map((_, i) => `series-${(i % 8) + 1}`);
     this.visible = data.runs.map(() => true);
     place.replaceChildren();
     const controls = element("div", place, "", "controls");
     this.addLegend(element("div", controls, "", "runs"));
-    this.slider = this.addTime(element("div", controls, "", "time"));
-    this.readout = element("div", controls, "", "wide readout");
-    this.readout.tabIndex = 0;
-    this.readout.setAttribute("role", "region");
-    this.readout.setAttribute("aria-label", "Errors at the cursor");
+    this.timeline.addControls(controls, has_stamps ? "Time" : "Pose");
+    this.readout = region(controls, "Errors at the cursor", "wide readout");
     const options = element("div", place, "", "options");
-    this.plane = new Plane(place, data, this.tokens, (at) => this.change({ at }));
+    this.plane = new Plane(place, data, this.tokens, this.timeline);
     this.addOptions(options);
-    this.charts = new LinkedCharts(data, this.tokens, (change) => this.change(change));
     element("h2", place, "Errors along the drive");
     element("p", place, "Drag across a plot to look at a part of the drive; a double click shows all of it.");
     const plots = element("div", place, "", "plots along");
-    for (const component of components) this.charts.draw(plots, component);
+    for (const component of components) this.drawErrors(plots, component);
     this.drawDistributions();
-    this.change({});
+    this.timeline.follow(() => this.showValues());
   }
 
   private addLegend(parent: HTMLElement): void {
@@ -74,7 +63,10 @@ class ComparisonPage {
   private applyVisible(): void {
     this.plane.visible = this.visible;
     this.plane.refresh();
-    this.charts.setVisible(this.visible);
+    for (const chart of this.charts)
+      this.visible.forEach((show, i) => {
+        if (chart.series[i + 1]!.show !== show) chart.setSeries(i + 1, { show });
+      });
     this.data.runs.forEach((run, i) => {
       for (const row of this.place.querySelectorAll<HTMLElement>(".row"))
         if (row.dataset["run"] === run.name) row.hidden = !this.visible[i];
@@ -82,15 +74,21 @@ class ComparisonPage {
     this.showValues();
   }
 
-  private addTime(parent: HTMLElement): HTMLInputElement {
-    const label = element("label", parent, this.data.truth.has_stamps ? "Time" : "Pose");
-    const slider = element("input", label) as HTMLInputElement;
-    slider.type = "range";
-    slider.addEventListener("input", () => this.change({ at: Number(slider.value) }));
-    button(parent, "+", "Shorter part of the drive", () => this.zoom(0.5));
-    button(parent, "−", "Longer part of the drive", () => this.zoom(2));
-    button(parent, "All", "Show the whole drive", () => this.change({ from: -Infinity, to: Infinity }));
-    return slider;
+  private drawErrors(parent: HTMLElement, component: Component): void {
+    const { truth, runs } = this.data;
+    const overWay: Axis = {
+      place: (time) => between(truth.time, truth.way, time)!,
+      time: (way) => between(truth.way, truth.time, way)!,
+    };
+    for (const axis of ["time", "way"] as const) {
+      const title = `${names[component]} error over ${axis}`;
+      const figure = figureIn(parent, title[0]!.toUpperCase() + title.slice(1));
+      figure.dataset["of"] = `${component}-${axis}`;
+      const x_label = axis === "way" ? "way, m" : truth.has_stamps ? "time, s" : "pose";
+      const lines = runs.map((r, i) => ({ name: r.name, x: r[axis], y: r[component], token: this.tokens[i]! }));
+      const options = { more: { legend: { show: false } }, ...(axis === "way" && { axis: overWay }) };
+      this.charts.push(linkedChart(figure, { title, x_label, y_label: "m", lines }, this.timeline, options));
+    }
   }
 
   private addOptions(parent: HTMLElement): void {
@@ -110,32 +108,11 @@ class ComparisonPage {
     choice.addEventListener("change", apply);
   }
 
-  private zoom(factor: number): void {
-    const half = (factor * (this.view.to - this.view.from)) / 2;
-    this.change({ from: this.view.at - half, to: this.view.at + half });
-  }
-
-  private change(change: Partial<View>): void {
-    const { view, whole } = this;
-    Object.assign(view, change);
-    const least = (whole[1] - whole[0]) / 1000;
-    view.from = Math.min(Math.max(view.from, whole[0]), whole[1] - least);
-    view.to = Math.max(Math.min(view.to, whole[1]), view.from + least);
-    view.at = Math.min(Math.max(view.at, view.from), view.to);
-    this.slider.min = `${view.from}`;
-    this.slider.max = `${view.to}`;
-    this.slider.step = `${(view.to - view.from) / 1000}`;
-    this.slider.value = `${view.at}`;
-    this.plane.show(view);
-    this.charts.show(view);
-    this.showValues();
-  }
-
   private showValues(): void {
     const { truth, runs } = this.data;
-    const { at } = this.view;
+    const { at } = this.timeline.view;
     const i = nearest(truth.time, at);
-    const when = truth.has_stamps ? `${at.toFixed(2)} s` : `pose ${at.toFixed(0)}`;
+    const when = this.timeline.text(at);
     const rows = runs.flatMap((run, k) => {
       if (!this.visible[k]) return [];
       const j = nearest(run.time, at);
@@ -146,7 +123,6 @@ class ComparisonPage {
       return [[name, ...components.map((c) => `${run[c][j]!.toFixed(3)} m`)]];
     });
     table(this.readout, [`${when}, ${truth.way[i]!.toFixed(1)} m`, ...components.map((c) => names[c])], rows);
-    this.slider.setAttribute("aria-valuetext", when);
   }
 
   private drawDistributions(): void {
@@ -206,11 +182,7 @@ function addCopies(parent: HTMLElement, tables: Data["tables"]): void {
   parent.append(said, text);
 }
 
-const text = document.getElementById("comparison-data")?.textContent;
-const place = document.getElementById("comparison");
-if (text && place) {
-  const data = JSON.parse(text) as Data;
-  themeSwitch(document.querySelector("main")!);
+export function showComparison(place: HTMLElement, data: Data): void {
   new ComparisonPage(data, place);
   addCopies(document.getElementById("copies")!, data.tables);
 }

@@ -32,23 +32,3 @@ export interface Data {
   runs: Run[];
   tables: Record<"csv" | "markdown" | "latex", string>;
 }
-
-// The index of the value nearest to `at` in an increasing list.
-export function nearest(list: number[], at: number): number {
-  let [low, high] = [0, list.length - 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (list[middle]! <= at) low = middle;
-    else high = middle;
-  }
-  return at - list[low]! < list[high]! - at ? low : high;
-}
-
-// The value of `to` where `from`, which increases, is `at`.
-export function between(from: number[], to: number[], at: number): number {
-  const i = nearest(from, at);
-  const j = Math.min(Math.max(at >= from[i]! ? i + 1 : i - 1, 0), from.length - 1);
-  const span = from[j]! - from[i]!;
-  const share = span === 0 ? 0 : Math.min(Math.max((at - from[i]!) / span, 0), 1);
-  return to[i]! + share * (to[j]! - to[i]!);
-}

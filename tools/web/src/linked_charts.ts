@@ -1,100 +1,80 @@
-// Charts over time and over way with one cursor and one stretch of time.
+// Charts with the cursor and the stretch of time of a timeline.
 import type uPlot from "uplot";
 
 import { drawChart } from "./chart";
-import { between, components, type Component, type Data } from "./comparison_data";
-import { element } from "./dom";
+import { ink } from "./palette";
 import type { Plot } from "./plot";
+import { levelTokens, type Timeline } from "./timeline";
 
-export interface View {
-  at: number; // time of the cursor
-  from: number; // stretch that is shown
-  to: number;
+// Where a time is on the axis of a chart, such as the way driven until then.
+export interface Axis {
+  place(time: number): number;
+  time(place: number): number;
 }
 
-const names: Record<Component, string> = { absolute: "3-D", horizontal: "horizontal", vertical: "vertical" };
+const overTime: Axis = { place: (time) => time, time: (place) => place };
 
-export class LinkedCharts {
-  private readonly charts: { chart: uPlot; axis: "time" | "way"; component: Component }[] = [];
-
-  constructor(
-    private readonly data: Data,
-    private readonly tokens: string[],
-    private readonly changed: (view: Partial<View>) => void,
-  ) {}
-
-  draw(parent: HTMLElement, component: Component): void {
-    for (const axis of ["time", "way"] as const) {
-      const figure = element("figure", parent);
-      figure.dataset["of"] = `${component}-${axis}`;
-      const title = `${names[component]} error over ${axis}`;
-      element("figcaption", figure, title[0]!.toUpperCase() + title.slice(1));
-      this.charts.push({ chart: this.chartOf(figure, component, axis, title), axis, component });
-    }
+function drawEvents(chart: uPlot, timeline: Timeline): void {
+  const { ctx, bbox } = chart;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  ctx.globalAlpha = 0.18;
+  for (const { from, to, level } of timeline.events) {
+    const left = chart.valToPos(from, "x", true);
+    ctx.fillStyle = ink(levelTokens[level]);
+    ctx.fillRect(left, bbox.top, Math.max(chart.valToPos(to, "x", true) - left, 2), bbox.height);
   }
+  ctx.restore();
+}
 
-  // Shows runs, all in the order of the data.
-  setVisible(visible: boolean[]): void {
-    for (const { chart } of this.charts)
-      visible.forEach((show, i) => {
-        if (chart.series[i + 1]!.show !== show) chart.setSeries(i + 1, { show });
-      });
-  }
-
-  show(view: View): void {
-    for (const { chart, axis } of this.charts) {
-      const [min, max] = [this.place(axis, view.from), this.place(axis, view.to)];
-      const { x } = chart.scales as { x: uPlot.Scale };
-      if ((x.min !== min || x.max !== max) && max > min) chart.setScale("x", { min, max });
-      queueMicrotask(() => this.placeCursor(chart, axis, view.at));
-    }
-  }
-
-  private place(axis: "time" | "way", time: number): number {
-    return axis === "time" ? time : between(this.data.truth.time, this.data.truth.way, time);
-  }
-
-  private time(axis: "time" | "way", at: number): number {
-    return axis === "time" ? at : between(this.data.truth.way, this.data.truth.time, at);
-  }
-
-  private placeCursor(chart: uPlot, axis: "time" | "way", time: number): void {
-    const left = chart.valToPos(this.place(axis, time), "x");
-    chart.setCursor({ left, top: chart.over.clientHeight / 2 }, false);
-  }
-
-  private chartOf(figure: HTMLElement, component: Component, axis: "time" | "way", title: string): uPlot {
-    const { truth, runs } = this.data;
-    const label = axis === "way" ? "way, m" : truth.has_stamps ? "time, s" : "pose";
-    const lines = runs.map((r, i) => ({ name: r.name, x: r[axis], y: r[component], token: this.tokens[i]! }));
-    const plot: Plot = { title, x_label: label, y_label: "m", lines };
-    return drawChart(figure, plot, {
-      legend: { show: false },
-      cursor: {
-        y: false,
-        drag: { x: true, y: false, setScale: false },
-        bind: { dblclick: () => () => (this.changed({ from: -Infinity, to: Infinity }), null) },
-      },
-      hooks: {
-        setCursor: [
-          (chart) => {
-            const { left } = chart.cursor;
-            if (left != null && left >= 0) this.changed({ at: this.time(axis, chart.posToVal(left, "x")) });
-            else this.changed({}); // the pointer has gone, the cursor stays
-          },
-        ],
-        setSelect: [
-          (chart) => {
-            const { left, width } = chart.select;
-            if (width < 4) return;
-            const [from, to] = [left, left + width].map((x) => this.time(axis, chart.posToVal(x, "x"))) as [number, number];
-            chart.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-            this.changed({ from, to });
-          },
-        ],
-      },
+// Draws a chart in the figure. Drag across to look at a part of the time; a double click shows all of it. `draw` adds
+// to what is drawn.
+export function linkedChart(
+  figure: HTMLElement,
+  plot: Plot,
+  timeline: Timeline,
+  { axis = overTime, draw, more = {} }: { axis?: Axis; draw?: (chart: uPlot) => void; more?: Partial<uPlot.Options> } = {},
+): uPlot {
+  const isTime = axis === overTime;
+  const shown = isTime && timeline.clock ? { ...plot, x_text: timeline.clock } : plot;
+  const chart = drawChart(figure, shown, {
+    cursor: {
+      y: false,
+      drag: { x: true, y: false, setScale: false },
+      bind: { dblclick: () => () => (timeline.all(), null) },
+    },
+    hooks: {
+      drawClear: isTime && timeline.events.length > 0 ? [(c) => drawEvents(c, timeline)] : [],
+      draw: draw ? [draw] : [],
+      setCursor: [
+        (c) => {
+          const { left } = c.cursor;
+          if (left != null && left >= 0) timeline.change({ at: axis.time(c.posToVal(left, "x")) });
+          else timeline.change({}); // the pointer has gone, the cursor stays
+        },
+      ],
+      setSelect: [
+        (c) => {
+          const { left, width } = c.select;
+          if (width < 4) return;
+          const [from, to] = [left, left + width].map((x) => axis.time(c.posToVal(x, "x"))) as [number, number];
+          c.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+          timeline.change({ from, to });
+        },
+      ],
+    },
+    ...more,
+  });
+  timeline.follow((view) => {
+    const [min, max] = [axis.place(view.from), axis.place(view.to)];
+    const { x } = chart.scales as { x: uPlot.Scale };
+    if ((x.min !== min || x.max !== max) && max > min) chart.setScale("x", { min, max });
+    queueMicrotask(() => {
+      const left = chart.valToPos(axis.place(view.at), "x");
+      chart.setCursor({ left, top: chart.over.clientHeight / 2 }, false);
     });
-  }
+  });
+  return chart;
 }
-
-export { components, names };

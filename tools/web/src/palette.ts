@@ -68,6 +68,9 @@ const meanings: [RegExp, string][] = [
   [/\bPPP\b/i, "ppp"],
   [/gnss|\bfix(es)?\b/i, "gnss"],
   [/matched/i, "matched"],
+  [/^converging/, "gnss"],
+  [/^converged/, "ppp"],
+  [/^fixed/, "good"],
 ];
 // What the name says first: "fused minus truth" is of the fused state.
 function meaningOf(name: string): string | undefined {

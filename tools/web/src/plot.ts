@@ -6,6 +6,7 @@ export interface Line {
   name: string;
   x: Numbers;
   y: Numbers;
+  time?: number[]; // of each place on a map
   look?: "solid" | "dashed" | "steps" | "points";
   token?: string; // of its colour (palette.ts)
   width?: number; // px, on a map
@@ -17,6 +18,8 @@ export interface Band {
   x: Numbers;
   low: Numbers;
   high: Numbers;
+  token?: string; // else that of the line with its index
+  is_clipped?: boolean; // the axis fits the lines alone
 }
 
 export interface Plot {
@@ -30,4 +33,7 @@ export interface Plot {
   x_log?: boolean;
   y_log?: boolean;
   x_mark?: { value: number; name: string };
+  over_time?: boolean; // x follows the timeline of the page
+  x_text?: (x: number) => string; // else the number
+  height?: number; // px
 }

@@ -3,6 +3,7 @@
 import { element } from "./dom";
 import { refusals, satelliteState, type PppState, type Preview } from "./live";
 import { ink } from "./palette";
+import { drawSatellite, drawSky } from "./sky";
 
 export const stateTokens = { used: "good", partly: "warning", refused: "error" } as const;
 
@@ -101,31 +102,15 @@ export class Views {
     context.fillRect(size / 2 - 0.9 * scale, size / 2 - 2.2 * scale, 1.8 * scale, 4.4 * scale);
   }
 
-  // North is up, the horizon outside.
   showSky(p: PppState): void {
     const size = 480;
-    const radius = size / 2 - 26;
     const used = p.satellites.filter((s) => satelliteState(s) === "used").length;
     const context = this.sky.begin(size, size, `Sky: ${used} of ${p.satellites.length} satellites used in full`);
-    context.strokeStyle = ink("line");
-    context.fillStyle = ink("soft");
-    context.font = "20px system-ui, sans-serif";
-    context.textAlign = "center";
-    for (const share of [1, 2 / 3, 1 / 3]) {
-      context.beginPath();
-      context.arc(size / 2, size / 2, share * radius, 0, 2 * Math.PI);
-      context.stroke();
-    }
-    context.fillText("N", size / 2, 20);
+    const place = drawSky(context, size);
     for (const s of p.satellites) {
       if (s.azimuth === 0 && s.elevation === 0) continue; // no ephemeris
-      const r = radius * (1 - Math.max(s.elevation, 0) / (Math.PI / 2));
-      const [x, y] = [size / 2 + r * Math.sin(s.azimuth), size / 2 - r * Math.cos(s.azimuth)];
       context.fillStyle = ink(stateTokens[satelliteState(s)]);
-      context.beginPath();
-      context.arc(x, y, 4 + Math.max(0, s.cn0 - 25) / 5, 0, 2 * Math.PI);
-      context.fill();
-      context.fillText(s.name, x, y - 12);
+      drawSatellite(context, place(s.azimuth, s.elevation), s.name, 4 + Math.max(0, s.cn0 - 25) / 5);
     }
     this.sky.canvas.title = p.satellites.map((s) => `${s.name}: ${refusals[s.refusal] || "used"}`).join("\n");
   }
