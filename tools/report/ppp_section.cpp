@@ -122,6 +122,7 @@ std::vector<Plot> error_plots(const std::vector<EpochError>& errors) {
 
 Plot satellites(const Scene& scene) {
   Plot plot{"Satellites", "s", "number", {{"used", {}, {}}, {"measured", {}, {}}}};
+  plot.over_time = true;
   for (const auto& [stamp, state] : scene.report.pass.ppp_states) {
     plot.lines[0].add(scene.second(stamp), state.satellites_used);
     plot.lines[1].add(scene.second(stamp), static_cast<double>(state.satellites.size()));
@@ -150,7 +151,7 @@ void add_ppp(web::Page& page, const Scene& scene) {
   const States& states = scene.report.pass.ppp_states;
   if (states.empty()) return;
   const std::vector<EpochError> errors = errors_of(scene);
-  page.add(web::heading("Precise point positioning") + coverage(states) + accuracy(errors));
+  page.add(web::heading(ppp_heading) + coverage(states) + accuracy(errors));
   std::vector<Plot> plots;
   if (!errors.empty()) plots = error_plots(errors);
   plots.push_back(satellites(scene));

@@ -19,10 +19,10 @@ using web::paragraph;
 using web::Row;
 
 std::string opening(const tools::ReplayResult& result) {
-  std::string html;
+  std::string html = "<section class=\"verdict\">";
   for (const std::string& line : tools::verdict(result)) html += paragraph(line);
   if (const auto why = tools::why_empty(result)) html += paragraph("The result is empty: " + *why);
-  return html;
+  return html + "</section>\n";
 }
 
 std::string summary(const tools::ReplayResult& r) {
@@ -55,15 +55,16 @@ std::string accuracy(const tools::ReplayResult& r) {
   add("LiDAR odometry", r.lidar);
   add("odom", r.odom);
   add("fused", r.fused);
-  if (rows.empty()) return paragraph("There is no reference, or too little of it to score with.");
-  return paragraph(
+  if (rows.empty()) return {};
+  return heading("Error of the path") +
+         paragraph(
              "The left camera's poses against the reference, in segments of 100 m as KITTI's "
              "odometry benchmark measures them; on the right with one common rotation removed.") +
          web::table(web::joined({{""}, web::headings(tools::accuracy_columns)}), rows);
 }
 
 std::string navigation(const std::optional<fusion_score::Score>& score) {
-  if (!score) return {};
+  if (!score) return paragraph("There is no reference, or too little of it to score with.");
   std::vector<Row> rows;
   const auto add = [&](const std::string& name, const fusion_score::Errors& e) {
     rows.push_back(web::joined({{name}, web::cells(tools::error_columns, e)}));
@@ -108,16 +109,17 @@ void write_report(const std::filesystem::path& file, const ReplayReport& r) {
   const tools::ReplayResult& result = r.result;
   const Health& health = result.vehicle.health;
   const Scene scene(r);
+  const profile::Profile times = profile::profile_of(result.vehicle.deadlines, health);
   web::Page page("Replay of " + result.drive);
-  page.add(opening(result)).add(trajectory_map(scene)).add(summary(result));
-  page.add(heading("Accuracy") + accuracy(result) + navigation(result.navigation));
-  page.add(state_plots(scene));
+  page.add(opening(result)).add_contents().add_timeline(events(scene, times));
+  page.add_overview(trajectory_map(scene)).add(summary(result));
+  page.add(heading(error_heading) + navigation(result.navigation)).add(state_plots(scene));
+  page.add(heading("Events")).add_events().add(accuracy(result));
   add_roads(page, scene);
   add_ppp(page, scene);
   page.add(heading("Health") + notes(health.degraded));
-  page.add(heading("What was lost or not used") + losses(result));
-  const profile::Profile times = profile::profile_of(result.vehicle.deadlines, health);
-  page.add(heading("Latencies and deadlines"));
+  page.add(heading(loss_heading) + losses(result));
+  page.add(heading(latency_heading));
   profile::add_latencies(page, times);
   profile::add_processor_time(page, times);
   page.add(heading("How it was run") + paragraph("maploop " MAPLOOP_VERSION) + channels(result) +

@@ -58,6 +58,7 @@ Plot reliability(const match::Reliability& r) {
 
 Plot probability(const Scene& scene) {
   Plot plot{"P(link)", "s", "1", {{"of the matched link", {}, {}}}};
+  plot.over_time = true;
   for (const auto& [stamp, moment] : scene.report.pass.matches) {
     plot.lines[0].add(scene.second(stamp), moment.on_road
                                                ? moment.matched.p_link
@@ -71,7 +72,7 @@ Plot probability(const Scene& scene) {
 void add_roads(web::Page& page, const Scene& scene) {
   const Matches& matches = scene.report.pass.matches;
   if (matches.empty()) return;
-  page.add(web::heading("Link identification"));
+  page.add(web::heading(road_heading));
   std::vector<Plot> plots{probability(scene)};
   if (const auto& links = scene.report.result.links; links && links->all.fixes > 0) {
     page.add(identified(*links));

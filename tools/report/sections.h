@@ -6,12 +6,20 @@
 #include <vector>
 
 #include "sensors/replay/reference_trajectory.h"
+#include "tools/profile/profile.h"
 #include "tools/report/report.h"
 #include "tools/web/page.h"
 
 namespace maploop::report {
 
 inline constexpr double sigmas = 3.0;
+
+// Headings that events lead to.
+inline constexpr const char* error_heading = "Absolute error";
+inline constexpr const char* road_heading = "Link identification";
+inline constexpr const char* ppp_heading = "Precise point positioning";
+inline constexpr const char* loss_heading = "What was lost or not used";
+inline constexpr const char* latency_heading = "Latencies and deadlines";
 
 // The replay in the common frame of all pictures.
 struct Scene {
@@ -38,6 +46,11 @@ struct ErrorSeries {
 // Plots an error against time with three of its estimated standard deviations. Without any known
 // error it plots only the standard deviations.
 web::Plot error_plot(const ErrorSeries& series);
+
+// Returns what was out of the ordinary, in the order of time: outages, faults, states that are not
+// aided, jumps of the position, refused odometry, roads that were left, epochs without a position
+// by PPP, and the worst missed deadlines.
+std::vector<web::Event> events(const Scene& scene, const profile::Profile& times);
 
 // Plots the view from above, in the fused state's own frame, over the roads of the replay's map:
 // truth, fused, PPP, matched points, and dead reckoning placed at the truth's first pose (the fused

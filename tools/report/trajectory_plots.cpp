@@ -32,8 +32,22 @@ Time first_of(const ReplayReport& r) {
   return r.pass.ppp_states.empty() ? Time{} : r.pass.ppp_states.begin()->first;
 }
 
-void add(Line& line, const Eigen::Vector3d& p) {
+void add(Line& line, double second, const Eigen::Vector3d& p) {
   line.add(p.x(), p.y());
+  line.time.push_back(second);
+}
+
+// Ends a line where it has a gap.
+void lift(Line& line, double second) {
+  if (!line.x.empty() && std::isfinite(line.x.back()))
+    add(line, second, Eigen::Vector3d::Constant(nan));
+}
+
+// Leaves as much of a way as can be seen.
+Line thinned(Line line) {
+  const auto kept = web::thinned(line.x.size(), {&line.x, &line.y});
+  for (auto* values : {&line.x, &line.y, &line.time}) *values = web::chosen(*values, kept);
+  return line;
 }
 
 const std::vector<NavState>& states_of(const Scene& scene) {
@@ -54,7 +68,8 @@ std::vector<ReferencePose> replayed_reference(const Scene& scene) {
 Line truth_line(const Scene& scene) {
   Line line{"truth", {}, {}};
   for (const ReferencePose& row : replayed_reference(scene)) {
-    if (const auto pose = scene.truth->pose(row.stamp)) add(line, pose->translation());
+    if (const auto pose = scene.truth->pose(row.stamp))
+      add(line, scene.second(row.stamp), pose->translation());
   }
   return line;
 }
@@ -63,8 +78,8 @@ Line fused_line(const Scene& scene) {
   Line line{"fused", {}, {}};
   Time last{};
   for (const NavState& s : states_of(scene)) {
-    if (!line.x.empty() && s.stamp - last > std::chrono::seconds(1)) line.add(nan, nan);
-    add(line, s.position_enu);
+    if (s.stamp - last > std::chrono::seconds(1)) lift(line, scene.second(last));
+    add(line, scene.second(s.stamp), s.position_enu);
     last = s.stamp;
   }
   return line;
@@ -91,7 +106,7 @@ Line dead_reckoned_line(const Scene& scene, const std::string& name,
       if (!begin) continue;
       T_enu_first = *begin * pose.inverse();
     }
-    add(line, (*T_enu_first * pose).translation());
+    add(line, scene.second(trajectory.stamps[i]), (*T_enu_first * pose).translation());
   }
   return line;
 }
@@ -129,9 +144,9 @@ Line ppp_line(const Scene& scene) {
   Line line{"PPP", {}, {}};
   for (const auto& [stamp, state] : scene.report.pass.ppp_states) {
     if (state.status == PppStatus::none) {
-      line.add(nan, nan);
+      lift(line, scene.second(stamp));
     } else {
-      add(line, scene.frame.to_enu(state.position));
+      add(line, scene.second(stamp), scene.frame.to_enu(state.position));
     }
   }
   return line;
@@ -140,7 +155,7 @@ Line ppp_line(const Scene& scene) {
 Line matched_line(const Scene& scene) {
   Line line{"matched", {}, {}, Line::Look::points};
   for (const auto& [stamp, moment] : scene.report.pass.matches) {
-    if (moment.on_road) add(line, scene.frame.to_enu(moment.place));
+    if (moment.on_road) add(line, scene.second(stamp), scene.frame.to_enu(moment.place));
   }
   return line;
 }
@@ -168,8 +183,12 @@ Plot speed_plot(const Scene& scene) {
     truth.add(scene.second(row.stamp), km_h * row.velocity_enu.head<2>().norm());
   }
   Plot plot{"Speed", "s", "km/h"};
-  if (!truth.x.empty()) plot.lines.push_back(std::move(truth));
-  plot.lines.push_back(std::move(fused));
+  plot.over_time = true;
+  for (const Line& line : {truth, fused}) {
+    const auto kept = web::thinned(line.x.size(), {&line.y});
+    if (!kept.empty())
+      plot.lines.push_back({line.name, web::chosen(line.x, kept), web::chosen(line.y, kept)});
+  }
   return plot;
 }
 
@@ -179,10 +198,18 @@ Scene::Scene(const ReplayReport& of) : report(of), frame(origin_of(of)), first(f
   if (of.reference.size() > 1) truth.emplace(of.reference, frame);
 }
 
-web::Plot error_plot(const ErrorSeries& s) {
+web::Plot error_plot(const ErrorSeries& all) {
   const bool known =
-      std::any_of(s.error.begin(), s.error.end(), [](double e) { return std::isfinite(e); });
+      std::any_of(all.error.begin(), all.error.end(), [](double e) { return std::isfinite(e); });
+  const auto kept = web::thinned(all.error.size(), {&all.error, &all.sigma});
+  const ErrorSeries s{all.quantity,
+                      all.unit,
+                      all.of,
+                      web::chosen(all.seconds, kept),
+                      web::chosen(all.error, kept),
+                      web::chosen(all.sigma, kept)};
   web::Plot plot{(known ? "Error " : "Uncertainty ") + s.quantity, "s", s.unit};
+  plot.over_time = true;
   web::Band band{"3 sigma", s.seconds, {}, {}};
   for (const double sigma : s.sigma) {
     band.low.push_back(-sigmas * sigma);
@@ -203,6 +230,7 @@ web::Plot trajectory_map(const Scene& scene) {
            dead_reckoned_line(scene, "LiDAR odometry", r.pass.lidar), matched_line(scene)}) {
     if (!line.x.empty()) plot.lines.push_back(std::move(line));
   }
+  for (Line& line : plot.lines) line = thinned(std::move(line));
   if (r.roads != nullptr)
     plot.roads = match::road_lines(*r.roads, scene.frame.origin(), plot.lines, surroundings);
   return plot;

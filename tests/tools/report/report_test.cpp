@@ -121,6 +121,27 @@ TEST(Report, LinksAreCountedWhereTheDrivenOnesAreKnown) {
   EXPECT_TRUE(has(known, "Reliability of P(link)"));
 }
 
+TEST(Report, WhatWasOutOfTheOrdinaryIsOnTheTimeline) {
+  Matches matches;
+  for (int i = 0; i < 20; ++i)
+    matches[at(0.5 * i)] = {{at(0.5 * i), {}},
+                            i > 3 && i < 10 ? MatchPhase::off_road : MatchPhase::along_link,
+                            true,
+                            origin};
+  tools::ReplayResult result;
+  result.begin = at(0.0);
+  result.faults = {{"lost@gnss:3:2", 2}};
+  result.outage_ends = {{6.0, 1.5, 15.0, 0.7, 1.0, {}}};
+  const std::string page = page_of(result, matches, ppp_of(10.0), straight_drive(10.0));
+  EXPECT_TRUE(has(page, R"("from":3.0,"level":"error","section":"What-was-lost-or-not-used",)"
+                        R"("text":"fault lost@gnss:3:2: 2 struck","to":5.0)"));
+  EXPECT_TRUE(has(page, R"("from":6.0,"level":"warning","section":"Absolute-error",)"
+                        R"("text":"no GNSS; the error grew to 0.7 m","to":7.5)"));
+  EXPECT_TRUE(has(page, R"("from":2.0,"level":"note","section":"Link-identification",)"
+                        R"("text":"off the roads of the map","to":4.5)"));
+  EXPECT_TRUE(has(page, R"("text":"no position by PPP: ","to":0.0)"));
+}
+
 TEST(Report, ARunWithoutAnythingHasAPageToo) {
   EXPECT_TRUE(has(page_of({}, {}, {}, {}), "Way of the vehicle"));
 }

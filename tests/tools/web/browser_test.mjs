@@ -1,4 +1,4 @@
-// maploop's report, its match page and its dashboard as people see them.
+// maploop's match page and its dashboard as people see them.
 //
 //   node browser_test.mjs MAPLOOP PICTURES CHROMIUM
 import assert from "node:assert/strict";
@@ -8,11 +8,9 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { after, before, test } from "node:test";
 
-import { chromium } from "playwright-core";
-
 import { assertAccessible } from "./accessible.mjs";
+import { isDrawn, launch, maploop, pictures } from "./pages.mjs";
 
-const [maploop, pictures, executablePath] = process.argv.slice(2);
 const drive = join(process.env.MAPLOOP_CACHE, "2011_09_26/2011_09_26_drive_0013_sync");
 const desktop = { width: 1280, height: 860 };
 const phone = { width: 390, height: 844 };
@@ -22,7 +20,7 @@ let browser;
 const children = [];
 
 before(async () => {
-  browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu"] });
+  browser = await launch();
 });
 
 after(async () => {
@@ -54,31 +52,6 @@ async function open(viewport, url) {
   await page.goto(url);
   return page;
 }
-
-const isDrawn = (canvas) =>
-  canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((v) => v > 0);
-
-test("the report draws every picture, on a desk, on a phone and on paper", async () => {
-  const file = join(pictures, "report.html");
-  const replay = spawnSync(maploop, ["replay", drive, "--lockstep", "--no-lcm", "--end", "5", "--report", file]);
-  assert.equal(replay.status, 0, String(replay.stderr));
-  for (const [name, viewport] of Object.entries({ desktop, phone })) {
-    const page = await open(viewport, pathToFileURL(file).href);
-    const figures = await page.$$("figure[data-plot]");
-    assert.ok(figures.length > 8, `${figures.length} figures`);
-    for (const figure of figures) {
-      const canvas = await figure.waitForSelector("canvas");
-      assert.ok(await canvas.evaluate(isDrawn), await figure.innerText());
-    }
-    assert.equal(await page.$$eval(".without", (all) => all.length), 0);
-    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-    assert.ok(overflow <= 0, `${overflow} px beyond the edge of the ${name}`);
-    await page.screenshot({ path: join(pictures, `report-${name}.png`), fullPage: true });
-    await assertAccessible(page, `the report on the ${name}`);
-    if (name === "desktop") await page.pdf({ path: join(pictures, "report.pdf"), format: "A4" });
-    await page.close();
-  }
-});
 
 test("the match page shows roads, fixes and the candidates of a fix, by mouse and by key", async (t) => {
   const file = join(pictures, "match.html");

@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/vehicle/faults/fault.h"
+#include "tools/report/sections.h"
+
+namespace maploop::report {
+namespace {
+
+using web::Event;
+using Level = Event::Level;
+using Events = std::vector<Event>;
+
+// Adds a moment to the event before, if that is of the same kind and at most `gap` seconds old.
+Event& extend(Events& list, double second, double gap, const Event& kind) {
+  const bool follows = !list.empty() && list.back().section == kind.section &&
+                       list.back().level == kind.level && second - list.back().to <= gap;
+  if (!follows) {
+    list.push_back(kind);
+    list.back().from = second;
+  }
+  list.back().to = second;
+  return list.back();
+}
+
+double drive_second(const Scene& scene, double second) {
+  return scene.second(scene.report.result.begin) + second;
+}
+
+void add_outages(const Scene& scene, Events& all) {
+  const tools::ReplayResult& r = scene.report.result;
+  const auto add = [&](double start, double length, double error) {
+    const double from = drive_second(scene, start);
+    all.push_back({from, from + length, Level::warning,
+                   fmt::format("no GNSS; the error grew to {:.1f} m", error), error_heading});
+  };
+  if (r.navigation && !r.navigation->outages.empty()) {
+    for (const auto& o : r.navigation->outages) add(o.start, o.length, o.errors.max);
+  } else {
+    for (const auto& o : r.outage_ends) add(o.start, o.length, o.error);
+  }
+}
+
+void add_faults(const Scene& scene, double last, Events& all) {
+  for (const vehicle::FaultCount& f : scene.report.result.faults) {
+    const vehicle::Fault fault = vehicle::parse_fault(f.fault);
+    const double from = drive_second(scene, to_seconds(fault.start));
+    all.push_back({from, fault.length ? from + to_seconds(*fault.length) : last, Level::error,
+                   fmt::format("fault {}: {} struck", f.fault, f.struck), loss_heading});
+  }
+}
+
+// The state's status, where it is not aided; refused odometry; jumps; restarts.
+void add_states(const Scene& scene, Events& all) {
+  constexpr double jump = 0.5;   // m, horizontally, beyond what the velocity explains
+  constexpr double longest = 1;  // s between two states; beyond it is a gap
+  Events statuses, refusals, jumps;
+  const NavState* before = nullptr;
+  double largest = 0.0;
+  std::uint64_t refused = 0;
+  for (const NavState& s : scene.report.pass.track.states()) {
+    const double now = scene.second(s.stamp);
+    if (s.status != NavStatus::aided) {
+      const bool goes_on = before != nullptr && before->status == s.status && !statuses.empty();
+      if (!goes_on)
+        statuses.push_back({now, now, Level::warning, std::string(to_string(s.status)), {}});
+      statuses.back().to = now;
+    }
+    if (before == nullptr) {
+      before = &s;
+      continue;
+    }
+    if (s.odometry_refused > before->odometry_refused) {
+      const std::size_t count = refusals.size();
+      Event& event = extend(refusals, now, 1.0, {0, 0, Level::warning, {}, loss_heading});
+      refused =
+          (refusals.size() > count ? 0 : refused) + s.odometry_refused - before->odometry_refused;
+      event.text = fmt::format("odometry refused, {} times", refused);
+    }
+    if (s.reinitializations > before->reinitializations)
+      all.push_back({now, now, Level::error, "the filter began anew at a fix", loss_heading});
+    const double step = to_seconds(s.stamp - before->stamp);
+    const Eigen::Vector3d motion = 0.5 * step * (s.velocity_enu + before->velocity_enu);
+    const double off = (s.position_enu - before->position_enu - motion).head<2>().norm();
+    if (off > jump && step < longest) {
+      const std::size_t count = jumps.size();
+      Event& event = extend(jumps, now, 1.0, {0, 0, Level::note, {}, error_heading});
+      largest = jumps.size() > count ? off : std::max(largest, off);
+      event.text = fmt::format("the position jumped by {:.1f} m", largest);
+    }
+    before = &s;
+  }
+  for (const Events* some : {&statuses, &refusals, &jumps})
+    all.insert(all.end(), some->begin(), some->end());
+}
+
+void add_roads_left(const Scene& scene, Events& all) {
+  constexpr double gap = 2.0;  // s between two matches
+  Events left;
+  for (const auto& [stamp, moment] : scene.report.pass.matches) {
+    if (moment.phase != MatchPhase::off_road) continue;
+    extend(left, scene.second(stamp), gap, {0, 0, Level::note, {}, road_heading}).text =
+        "off the roads of the map";
+  }
+  all.insert(all.end(), left.begin(), left.end());
+}
+
+void add_epochs_without_position(const Scene& scene, Events& all) {
+  Events without;
+  std::uint64_t restarts = 0;
+  for (const auto& [stamp, state] : scene.report.pass.ppp_states) {
+    const double now = scene.second(stamp);
+    if (state.status == PppStatus::none) {
+      extend(without, now, 1.5, {0, 0, Level::warning, {}, ppp_heading}).text =
+          "no position by PPP: " + state.message;
+    }
+    if (state.restarts > restarts)
+      all.push_back({now, now, Level::error, "PPP started again", ppp_heading});
+    restarts = state.restarts;
+  }
+  all.insert(all.end(), without.begin(), without.end());
+}
+
+void add_misses(const Scene& scene, const profile::Profile& times, Events& all) {
+  if (scene.report.result.lockstep) return;
+  for (const profile::WorstMiss& w : times.worst) {
+    const double second = scene.second(w.miss.stamp);
+    all.push_back({second, second, Level::error,
+                   fmt::format("{} late: {:.1f} of {:.1f} ms", w.of,
+                               to_milliseconds(w.miss.latency), to_milliseconds(w.deadline)),
+                   latency_heading});
+  }
+}
+
+}  // namespace
+
+std::vector<Event> events(const Scene& scene, const profile::Profile& times) {
+  Events all;
+  const auto& states = scene.report.pass.track.states();
+  add_outages(scene, all);
+  add_faults(scene, states.empty() ? 0.0 : scene.second(states.back().stamp), all);
+  add_states(scene, all);
+  add_roads_left(scene, all);
+  add_epochs_without_position(scene, all);
+  add_misses(scene, times, all);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Event& a, const Event& b) { return a.from < b.from; });
+  return all;
+}
+
+}  // namespace maploop::report
