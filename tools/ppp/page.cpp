@@ -193,6 +193,7 @@ std::string refusals(const Solutions& solutions) {
     }
   }
   std::vector<web::Row> rows;
+  rows.reserve(counts.size());
   for (const auto& [why, count] : counts) rows.push_back({why, std::to_string(count)});
   return web::table({"refused, or begun anew", "satellites and epochs"}, rows);
 }

@@ -140,6 +140,7 @@ std::string refusals(const States& states) {
   }
   if (counts.empty()) return {};
   std::vector<web::Row> rows;
+  rows.reserve(counts.size());
   for (const auto& [why, count] : counts) rows.push_back({why, std::to_string(count)});
   return web::folded("Satellites refused or begun anew",
                      web::table({"why", "satellites and epochs"}, rows));

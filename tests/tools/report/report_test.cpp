@@ -123,11 +123,12 @@ TEST(Report, LinksAreCountedWhereTheDrivenOnesAreKnown) {
 
 TEST(Report, WhatWasOutOfTheOrdinaryIsOnTheTimeline) {
   Matches matches;
-  for (int i = 0; i < 20; ++i)
+  for (int i = 0; i < 20; ++i) {
     matches[at(0.5 * i)] = {{at(0.5 * i), {}},
                             i > 3 && i < 10 ? MatchPhase::off_road : MatchPhase::along_link,
                             true,
                             origin};
+  }
   tools::ReplayResult result;
   result.begin = at(0.0);
   result.faults = {{"lost@gnss:3:2", 2}};
