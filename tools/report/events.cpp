@@ -52,48 +52,64 @@ void add_faults(const Scene& scene, double last, Events& all) {
   }
 }
 
-// The state's status, where it is not aided; refused odometry; jumps; restarts.
-void add_states(const Scene& scene, Events& all) {
-  constexpr double jump = 0.5;   // m, horizontally, beyond what the velocity explains
-  constexpr double longest = 1;  // s between two states; beyond it is a gap
-  Events statuses, refusals, jumps;
-  const NavState* before = nullptr;
-  double largest = 0.0;
-  std::uint64_t refused = 0;
-  for (const NavState& s : scene.report.pass.track.states()) {
+void add_restarts(const Scene& scene, Events& all) {
+  const auto& states = scene.states();
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    if (states[i].reinitializations <= states[i - 1].reinitializations) continue;
+    const double now = scene.second(states[i].stamp);
+    all.push_back({now, now, Level::error, "the filter began anew at a fix", loss_heading});
+  }
+}
+
+void add_states_without_aid(const Scene& scene, Events& all) {
+  NavStatus before = NavStatus::aided;
+  for (const NavState& s : scene.states()) {
     const double now = scene.second(s.stamp);
     if (s.status != NavStatus::aided) {
-      const bool goes_on = before != nullptr && before->status == s.status && !statuses.empty();
-      if (!goes_on)
-        statuses.push_back({now, now, Level::warning, std::string(to_string(s.status)), {}});
-      statuses.back().to = now;
+      if (s.status != before)
+        all.push_back({now, now, Level::warning, std::string(to_string(s.status)), {}});
+      all.back().to = now;
     }
-    if (before == nullptr) {
-      before = &s;
-      continue;
-    }
-    if (s.odometry_refused > before->odometry_refused) {
-      const std::size_t count = refusals.size();
-      Event& event = extend(refusals, now, 1.0, {0, 0, Level::warning, {}, loss_heading});
-      refused =
-          (refusals.size() > count ? 0 : refused) + s.odometry_refused - before->odometry_refused;
-      event.text = fmt::format("odometry refused, {} times", refused);
-    }
-    if (s.reinitializations > before->reinitializations)
-      all.push_back({now, now, Level::error, "the filter began anew at a fix", loss_heading});
-    const double step = to_seconds(s.stamp - before->stamp);
-    const Eigen::Vector3d motion = 0.5 * step * (s.velocity_enu + before->velocity_enu);
-    const double off = (s.position_enu - before->position_enu - motion).head<2>().norm();
-    if (off > jump && step < longest) {
-      const std::size_t count = jumps.size();
-      Event& event = extend(jumps, now, 1.0, {0, 0, Level::note, {}, error_heading});
-      largest = jumps.size() > count ? off : std::max(largest, off);
-      event.text = fmt::format("the position jumped by {:.1f} m", largest);
-    }
-    before = &s;
+    before = s.status;
   }
-  for (const Events* some : {&statuses, &refusals, &jumps})
-    all.insert(all.end(), some->begin(), some->end());
+}
+
+void add_refused_odometry(const Scene& scene, Events& all) {
+  Events refusals;
+  std::uint64_t times = 0;  // of the event
+  const auto& states = scene.states();
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    const std::uint64_t before = states[i - 1].odometry_refused, now = states[i].odometry_refused;
+    if (now <= before) continue;
+    const std::size_t count = refusals.size();
+    Event& event = extend(refusals, scene.second(states[i].stamp), 1.0,
+                          {0, 0, Level::warning, {}, loss_heading});
+    times = (refusals.size() > count ? 0 : times) + now - before;
+    event.text = fmt::format("odometry refused, {} times", times);
+  }
+  all.insert(all.end(), refusals.begin(), refusals.end());
+}
+
+// A jump is a change of the horizontal position that the velocity does not explain.
+void add_jumps(const Scene& scene, Events& all) {
+  constexpr double least = 0.5;    // m
+  constexpr double longest = 1.0;  // s between two states; beyond it is a gap
+  Events jumps;
+  double largest = 0.0;  // of the event
+  const auto& states = scene.states();
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    const NavState &before = states[i - 1], &s = states[i];
+    const double step = to_seconds(s.stamp - before.stamp);
+    const Eigen::Vector3d motion = 0.5 * step * (s.velocity_enu + before.velocity_enu);
+    const double off = (s.position_enu - before.position_enu - motion).head<2>().norm();
+    if (!(off > least && step < longest)) continue;
+    const std::size_t count = jumps.size();
+    Event& event =
+        extend(jumps, scene.second(s.stamp), 1.0, {0, 0, Level::note, {}, error_heading});
+    largest = jumps.size() > count ? off : std::max(largest, off);
+    event.text = fmt::format("the position jumped by {:.1f} m", largest);
+  }
+  all.insert(all.end(), jumps.begin(), jumps.end());
 }
 
 void add_roads_left(const Scene& scene, Events& all) {
@@ -138,10 +154,13 @@ void add_misses(const Scene& scene, const profile::Profile& times, Events& all) 
 
 std::vector<Event> events(const Scene& scene, const profile::Profile& times) {
   Events all;
-  const auto& states = scene.report.pass.track.states();
+  const auto& states = scene.states();
   add_outages(scene, all);
   add_faults(scene, states.empty() ? 0.0 : scene.second(states.back().stamp), all);
-  add_states(scene, all);
+  add_restarts(scene, all);
+  add_states_without_aid(scene, all);
+  add_refused_odometry(scene, all);
+  add_jumps(scene, all);
   add_roads_left(scene, all);
   add_epochs_without_position(scene, all);
   add_misses(scene, times, all);

@@ -33,6 +33,7 @@ struct Scene {
   Time first;                                         // plots count their seconds from here
 
   double second(Time t) const { return to_seconds(t - first); }
+  const std::vector<NavState>& states() const { return report.pass.track.states(); }
 };
 
 // All lists have the same length; an error that is not finite is unknown at that time.

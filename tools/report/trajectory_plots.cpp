@@ -50,14 +50,10 @@ Line thinned(Line line) {
   return line;
 }
 
-const std::vector<NavState>& states_of(const Scene& scene) {
-  return scene.report.pass.track.states();
-}
-
 // Returns the rows of the reference that the replay, which may have ended early, reached.
 std::vector<ReferencePose> replayed_reference(const Scene& scene) {
   std::vector<ReferencePose> rows;
-  const std::vector<NavState>& states = states_of(scene);
+  const std::vector<NavState>& states = scene.states();
   for (const ReferencePose& row : scene.report.reference) {
     if (states.empty() || row.stamp > states.back().stamp) break;
     rows.push_back(row);
@@ -77,7 +73,7 @@ Line truth_line(const Scene& scene) {
 Line fused_line(const Scene& scene) {
   Line line{"fused", {}, {}};
   Time last{};
-  for (const NavState& s : states_of(scene)) {
+  for (const NavState& s : scene.states()) {
     if (s.stamp - last > std::chrono::seconds(1)) lift(line, scene.second(last));
     add(line, scene.second(s.stamp), s.position_enu);
     last = s.stamp;
@@ -86,7 +82,7 @@ Line fused_line(const Scene& scene) {
 }
 
 std::optional<Eigen::Isometry3d> fused_pose(const Scene& scene, Time stamp) {
-  for (const NavState& s : states_of(scene)) {
+  for (const NavState& s : scene.states()) {
     if (s.stamp < stamp) continue;
     return Eigen::Translation3d(s.position_enu) * Eigen::Isometry3d(rotation_enu_body(s.attitude));
   }
@@ -162,7 +158,7 @@ Line matched_line(const Scene& scene) {
 
 ErrorSeries error_of(const Scene& scene, const Quantity& q) {
   ErrorSeries series{q.name, q.unit, "fused"};
-  for (const NavState& s : states_of(scene)) {
+  for (const NavState& s : scene.states()) {
     const auto pose = scene.truth ? scene.truth->pose(s.stamp) : std::nullopt;
     double off = pose ? q.value(s) - q.truth(*pose) : nan;
     if (q.wraps) off = std::remainder(off, 360.0);
@@ -176,7 +172,7 @@ ErrorSeries error_of(const Scene& scene, const Quantity& q) {
 Plot speed_plot(const Scene& scene) {
   constexpr double km_h = 3.6;
   Line fused{"fused", {}, {}}, truth{"truth", {}, {}};
-  for (const NavState& s : states_of(scene)) {
+  for (const NavState& s : scene.states()) {
     fused.add(scene.second(s.stamp), km_h * s.velocity_enu.head<2>().norm());
   }
   for (const ReferencePose& row : replayed_reference(scene)) {
@@ -238,7 +234,7 @@ web::Plot trajectory_map(const Scene& scene) {
 
 std::vector<web::Plot> state_plots(const Scene& scene) {
   std::vector<Plot> plots;
-  if (states_of(scene).empty()) return plots;
+  if (scene.states().empty()) return plots;
   for (const Quantity& q : quantities()) plots.push_back(error_plot(error_of(scene, q)));
   plots.push_back(speed_plot(scene));
   return plots;
