@@ -1,10 +1,13 @@
 // maploop ppp: positions from GNSS files.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "ppp/filter/parameter_table.h"
 #include "runtime/vehicle/config/vehicle_config.h"
@@ -102,25 +105,23 @@ gnss::RunOptions run_options(const PppOptions& options, const vehicle::PppConfig
   return run;
 }
 
-// The solutions that a run gives beside its own.
-std::vector<gnss::OtherSolution> by_products(const gnss::PppRun& run, bool on_map) {
-  if (run.direction() == gnss::Direction::smoothed) return {{"forward"}, {"backward"}};
-  if (on_map) return {{"without the map"}};
-  return {};
-}
-
-void add_by_products(const gnss::PppRun& run, std::vector<gnss::OtherSolution>& others) {
-  if (others.size() == 2) {
-    for (std::size_t i = 0; i < 2; ++i) others[i].add(run.both_ways()[i]);
-  } else if (others.size() == 1) {
-    others[0].add(run.filter().map_free());
+// Returns the solutions of the current epoch that a run gives beside its own, with their names.
+std::vector<std::pair<const char*, const ppp::PppSolution*>> by_products(const gnss::PppRun& run,
+                                                                         bool on_map) {
+  if (run.direction() == gnss::Direction::smoothed) {
+    return {{"forward", &run.both_ways()[0]}, {"backward", &run.both_ways()[1]}};
   }
+  if (on_map) return {{"without the map", &run.filter().map_free()}};
+  return {};
 }
 
 gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double integrity_risk,
                         bool on_map, ppp::GpsTime first) {
   gnss::PppResult r;
-  r.others = by_products(run, on_map);
+  std::vector<gnss::OtherSolution> compared;  // read before the run, which a wrong file would waste
+  compared.reserve(options.compared.size());
+  for (const auto& file : options.compared) compared.push_back(gnss::read_solution(file));
+  for (const auto& [name, solution] : by_products(run, on_map)) r.others.push_back({name});
   if (!options.truth.empty()) {
     r.truth = std::make_unique<gnss::Truth>(options.truth, first);
     r.score = std::make_unique<gnss::Score>(*r.truth, integrity_risk);
@@ -136,12 +137,13 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
     if (r.score) r.score->add(s);
     if (r.without_map) r.without_map->add(run.filter().map_free());
     if (r.comparison) r.comparison->add(s, run.filter().map_free());
-    add_by_products(run, r.others);
+    std::size_t other = 0;
+    for (const auto& [name, solution] : by_products(run, on_map)) r.others[other++].add(*solution);
     r.matched += run.map_step().way_id.has_value();
     r.solutions.push_back(s);
   });
   if (r.solutions.empty()) throw std::runtime_error("no epoch between --start and --end");
-  for (const auto& file : options.compared) r.others.push_back(gnss::read_solution(file));
+  std::move(compared.begin(), compared.end(), std::back_inserter(r.others));
   return r;
 }
 

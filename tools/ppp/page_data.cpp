@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <set>
 
 #include "msgs/frames.h"
+#include "ppp/filter/median.h"
 #include "ppp/models/geodesy.h"
 #include "tools/web/page.h"
 
@@ -26,10 +26,7 @@ double interval_of(const Solutions& solutions) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < solutions.size(); ++i)
     steps.push_back(to_seconds(solutions[i].time - solutions[i - 1].time));
-  if (steps.empty()) return 1.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? 1.0 : median(steps);
 }
 
 // Whole tenths of a millimetre, as metres.
@@ -57,7 +54,8 @@ json track(const std::string& name, const Positions& positions, const Eigen::Vec
   return j;
 }
 
-// What was used of a satellite: 0 all, 1 a part, and from 2 on why not.
+// Returns 0 if all of a satellite was used, 1 if a part was used, and otherwise the reason from 2
+// on.
 std::size_t state_of(const SatelliteReport& r) {
   if (r.code_used && r.phase_used) return 0;
   if (r.code_used || r.phase_used) return 1;

@@ -1,4 +1,5 @@
-// What the page's script draws of a run (tools/web/src/gnss_data.ts), thinned where there is much.
+// This file makes the data that the page's script draws (tools/web/src/gnss_data.ts). Of a long run
+// it keeps fewer epochs.
 #pragma once
 
 #include <limits>
