@@ -50,7 +50,7 @@ void restart_from(FilterState& state, GnssFix fix, const LocalFrame& frame,
   ++state.reinitializations;
 }
 
-// What a fix has measured, without what this filter knows already.
+// This is the position that a fix adds to what the filter knows: of a carried fix, its increment.
 struct Measured {
   Vector3d position;  // m, enu
   FixError error;

@@ -136,8 +136,8 @@ void PppFilter::set_zenith_ionosphere(const std::vector<Tracked>& tracked) {
   }
 }
 
-// Of the epochs between two solutions all must be carried: without a motion the filter assumes one,
-// which nobody else knows.
+// A solution is carried only if every epoch since the last solution was. Without a measured motion
+// the filter assumes one, and nobody else knows this assumption.
 void PppFilter::predict(double interval, const CarriedMotion* carried) {
   const auto x = state_.x();
   const auto P = state_.P();

@@ -44,7 +44,7 @@ struct Plot {
   bool over_time = false;  // x is finite, increases, and follows the timeline of the page, if any
 };
 
-// What happened at a time or for a while, on the timeline of a page.
+// An event is at a time, or lasts for a while, on the timeline of a page.
 struct Event {
   enum class Level { note, warning, error };
 

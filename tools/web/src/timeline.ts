@@ -7,7 +7,7 @@ export interface View {
   to: number;
 }
 
-// What happened at a time or for a while (tools/web/plot.h).
+// An event is at a time, or lasts for a while (tools/web/plot.h).
 export interface TimelineEvent {
   from: number;
   to: number;
