@@ -45,8 +45,10 @@ class GuardedFilter {
   FilterStatus status() const { return aided_.status(); }
   SelfCalibrations calibration() const { return aided_.calibration(); }
 
-  // These work as those of ReducedImuFilter.
-  std::size_t largest_archive() const { return 3 * aided_.largest_archive() + 256; }
+  // These work as those of ReducedImuFilter. The copies exist from the first feedback on.
+  std::size_t largest_archive(bool with_feedback) const {
+    return (with_feedback ? 3 : 1) * aided_.largest_archive() + 256;
+  }
   void archive(ArchiveWriter& ar) const;
   void archive(ArchiveReader& ar);
 

@@ -96,7 +96,12 @@ std::size_t parse_velodyne_points(const std::vector<char>& bytes, std::vector<Li
     throw std::runtime_error("the scan is incomplete: " + std::to_string(bytes.size()) +
                              " bytes are not a multiple of " + std::to_string(sizeof(LidarPoint)));
   }
-  points.resize(bytes.size() / sizeof(LidarPoint));
+  const std::size_t count = bytes.size() / sizeof(LidarPoint);
+  if (points.capacity() < count) {  // resize() alone would double it for a few points more
+    points.clear();
+    points.reserve(count + count / 8);
+  }
+  points.resize(count);
   std::memcpy(points.data(), bytes.data(), bytes.size());
   const std::size_t dropped = std::erase_if(points, [](const LidarPoint& p) {
     return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) &&

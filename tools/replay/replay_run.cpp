@@ -1,5 +1,7 @@
 #include "tools/replay/replay_run.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
 #include <iostream>
@@ -114,7 +116,7 @@ class Replay {
   void look_ahead() const;
   std::unique_ptr<vehicle::Vehicle> make_vehicle(const vehicle::Snapshot* from);
   void place(vehicle::Vehicle& vehicle, const vehicle::Snapshot* from);
-  vehicle::PlayerParameters player_parameters() const;
+  vehicle::PlayerParameters player_parameters();
   PlaybackEnd play_all();
   ReplayResult result(PlaybackEnd end, const std::vector<ReferencePose>& reference);
   int status(const ReplayResult& result, bool written) const;
@@ -205,7 +207,7 @@ void Replay::place(vehicle::Vehicle& vehicle, const vehicle::Snapshot* from) {
   }
 }
 
-vehicle::PlayerParameters Replay::player_parameters() const {
+vehicle::PlayerParameters Replay::player_parameters() {
   vehicle::PlayerParameters p;
   p.first = resumed_ ? resumed_->at : recording_.first_stamp;
   p.last = std::min(recording_.last_stamp, end_);
@@ -219,6 +221,8 @@ vehicle::PlayerParameters Replay::player_parameters() const {
     throw std::runtime_error("--start " + shown(options_.start) + " lies after the end, at " +
                              shown(to_seconds(p.last - recording_.first_stamp)) + " s");
   }
+  // What nobody can send back keeps no memory for it.
+  if (output_.bus() == nullptr && isatty(STDIN_FILENO) == 0) p.snapshots = 0;
   p.passes = options_.loop == 0 ? std::numeric_limits<std::uint64_t>::max() : options_.loop;
   return p;
 }

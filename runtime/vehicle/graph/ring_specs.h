@@ -136,8 +136,9 @@ inline constexpr RingSpec<Preview> preview_publisher{.from = stages::preview,
                                                      .overflow = runtime::Overflow::drop_newest};
 inline constexpr RingSpec<RuntimeReport> health_publisher{stages::health, publisher, 8};
 
-// Each stage that is saved has one ring of this capacity to the snapshot thread.
-inline constexpr std::size_t snapshot_capacity = 2;
+// Each stage that is saved has one ring of this capacity to the snapshot thread. Cuts are seconds
+// apart, and a saved state has megabytes.
+inline constexpr std::size_t snapshot_capacity = 1;
 
 // In this order consumers take samples that become available at the same time.
 inline constexpr auto all = std::tie(

@@ -92,6 +92,7 @@ FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration od
     GraphStage::take(intake_, *motions, [this](const RelativeMotion& motion) { take(motion); });
   }
   if (runtime::Edge<MapFeedback>* ring = input(rings::mapmatch_fusion)) {
+    feedback_ = true;
     intake_.add_feedback(*ring, [this](const MapFeedback& feedback) {
       const runtime::TraceSpan span(trace(), "map feedback");
       filter_.add(feedback);

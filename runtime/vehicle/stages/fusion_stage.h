@@ -28,7 +28,8 @@ class FusionStage final : public GraphStage {
   // takes what has arrived; what is late goes to a later tick.
   void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
   std::size_t saved_bytes() const override {
-    return filter_.largest_archive() + sent_image_states_.capacity() * sizeof(FusedState) + 4096;
+    return filter_.largest_archive(feedback_) + sent_image_states_.capacity() * sizeof(FusedState) +
+           4096;
   }
   std::vector<UseWatch*> uses() override {
     return {&imu_use_,   &gnss_use_,   &wheel_use_,   &odometry_use_,
@@ -79,6 +80,7 @@ class FusionStage final : public GraphStage {
   Outputs<FusedState> image_states_;
   Duration odometry_budget_;
   runtime::Intake intake_;
+  bool feedback_ = false;  // the map feeds back
   std::stop_token stop_;
   Time tick_{};
   std::atomic<std::int64_t> position_{0};

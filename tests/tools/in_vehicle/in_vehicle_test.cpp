@@ -46,5 +46,13 @@ TEST_F(InVehicleOnDrive, RefusesAMapThatIsNoNetworkFile) {
   EXPECT_THAT(process.error, HasSubstr("'maploop map build' makes one"));
 }
 
+TEST_F(InVehicleOnDrive, TakesLessThan200Megabytes) {
+  const std::string written = file("result.json");
+  const ProcessResult process =
+      run_in_vehicle({"replay", drive(), "--no-lcm", "--speed", "4", "--json", written});
+  ASSERT_EQ(process.status, 0) << process.error;
+  EXPECT_LT(read_json(written)["replay"]["peak_memory_bytes"].get<double>(), 200e6);
+}
+
 }  // namespace
 }  // namespace maploop
