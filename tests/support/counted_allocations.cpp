@@ -1,6 +1,18 @@
 #include "tests/support/counted_allocations.h"
 
+#include <dlfcn.h>
+#include <execinfo.h>
+#include <pthread.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "tests/support/process.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define MAPLOOP_COUNTS_ALLOCATIONS 0
@@ -9,8 +21,66 @@
 #endif
 
 namespace {
+
+constexpr int most_frames = 24;
+constexpr std::size_t most_threads = 128, most_places = 256;
+
+// The way to one place that allocates.
+struct Place {
+  std::array<void*, most_frames> frames;
+  int depth = 0;
+  long count = 0;
+};
+
+// What one thread allocates; it alone writes here. Nothing of it is itself allocated.
+struct Watched {
+  std::array<char, 16> name;
+  long count = 0;
+  std::array<Place, most_places> places;
+  std::size_t places_used = 0;
+
+  void note() {
+    Place here;
+    here.depth = backtrace(here.frames.data(), most_frames);
+    ++count;
+    Place* const end = places.data() + places_used;
+    Place* const known = std::find_if(places.data(), end, [&](const Place& place) {
+      return place.depth == here.depth &&
+             std::equal(here.frames.begin(), here.frames.begin() + here.depth,
+                        place.frames.begin());
+    });
+    if (known != end) {
+      ++known->count;
+    } else if (places_used < most_places) {
+      places[places_used] = here;
+      places[places_used++].count = 1;
+    }
+  }
+};
+
+std::array<Watched, most_threads> threads;
+std::atomic<std::size_t> threads_used{0};
+std::atomic<bool> watching{false};
 constinit thread_local long allocations = 0;
+constinit thread_local Watched* own = nullptr;
+constinit thread_local bool noting = false;
+
+[[maybe_unused]] void count_one() {
+  ++allocations;
+  if (!watching.load(std::memory_order_relaxed) || noting) return;
+  noting = true;  // what the note itself allocates is not counted
+  if (own == nullptr) {
+    const std::size_t k = threads_used.fetch_add(1);
+    if (k < most_threads) {
+      own = &threads[k];
+      pthread_getname_np(pthread_self(), own->name.data(), own->name.size());
+    }
+  }
+  if (own != nullptr) own->note();
+  noting = false;
 }
+
+}  // namespace
 
 #if MAPLOOP_COUNTS_ALLOCATIONS
 // These are glibc's own entry points, which the replacements below call.
@@ -21,25 +91,58 @@ void* __libc_realloc(void* memory, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 
 void* malloc(std::size_t size) {
-  ++allocations;
+  count_one();
   return __libc_malloc(size);
 }
 void* calloc(std::size_t count, std::size_t size) {
-  ++allocations;
+  count_one();
   return __libc_calloc(count, size);
 }
 void* realloc(void* memory, std::size_t size) {
-  ++allocations;
+  count_one();
   return __libc_realloc(memory, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  ++allocations;
+  count_one();
   return __libc_memalign(alignment, size);
 }
 }
 #endif
 
 namespace maploop::testing {
+namespace {
+
+// Returns the functions of this program among the frames, innermost first, joined by " < ", or
+// "another library".
+std::string functions(const Place& place) {
+  Dl_info self{}, info{};
+  dladdr(reinterpret_cast<void*>(&functions), &self);
+  std::vector<std::string> command{"addr2line", "-Cfse",
+                                   std::filesystem::read_symlink("/proc/self/exe").string()};
+  for (int i = 0; i < place.depth; ++i) {
+    void* frame = place.frames[static_cast<std::size_t>(i)];
+    if (dladdr(frame, &info) == 0 || info.dli_fbase != self.dli_fbase) continue;
+    std::ostringstream offset;
+    offset << std::hex
+           << reinterpret_cast<std::uintptr_t>(frame) -
+                  reinterpret_cast<std::uintptr_t>(self.dli_fbase) - 1;
+    command.push_back(offset.str());
+  }
+  std::istringstream lines(run(command).out);
+  std::string joined, function, file;
+  while (std::getline(lines, function) && std::getline(lines, file)) {
+    const bool of_the_watch = function == "malloc" || function == "calloc" ||
+                              function == "realloc" || function == "aligned_alloc" ||
+                              function.find("count_one") != std::string::npos ||
+                              function.find("Watched") != std::string::npos;
+    if (of_the_watch) continue;
+    if (!joined.empty()) joined += " < ";
+    joined += function.substr(0, function.find('('));
+  }
+  return joined.empty() ? "another library" : joined;
+}
+
+}  // namespace
 
 bool counts_allocations() {
   return MAPLOOP_COUNTS_ALLOCATIONS;
@@ -47,6 +150,35 @@ bool counts_allocations() {
 
 long thread_allocations() {
   return allocations;
+}
+
+void watch_allocations() {
+  std::array<void*, 1> frames{};
+  backtrace(frames.data(), 1);  // loads what it needs
+  watching.store(true);
+}
+
+void unwatch_allocations() {
+  watching.store(false);
+}
+
+std::vector<WatchedThread> watched_allocations() {
+  constexpr std::size_t shown = 3;
+  std::vector<WatchedThread> all;
+  for (std::size_t k = 0; k < std::min(threads_used.load(), most_threads); ++k) {
+    Watched& watched = threads[k];
+    WatchedThread& thread = all.emplace_back();
+    thread.name = watched.name.data();
+    thread.allocations = watched.count;
+    std::vector<Place> places(
+        watched.places.begin(),
+        watched.places.begin() + static_cast<std::ptrdiff_t>(watched.places_used));
+    std::sort(places.begin(), places.end(),
+              [](const Place& a, const Place& b) { return a.count > b.count; });
+    for (std::size_t i = 0; i < std::min(places.size(), shown); ++i)
+      thread.callers.push_back(std::to_string(places[i].count) + " by " + functions(places[i]));
+  }
+  return all;
 }
 
 }  // namespace maploop::testing

@@ -2,6 +2,9 @@
 // replaces malloc, and so is for an executable of its own, which links maploop_counted_allocations.
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace maploop::testing {
 
 // Returns false if a sanitizer replaces malloc.
@@ -9,5 +12,21 @@ bool counts_allocations();
 
 // Returns the number of allocations of the calling thread since it started.
 long thread_allocations();
+
+// Between the two calls, the allocations of all threads are kept with their callers. The first call
+// must precede the start of the threads that are not to be held up by it.
+void watch_allocations();
+void unwatch_allocations();
+
+struct WatchedThread {
+  std::string name;  // as pthread_setname_np() has set it
+  long allocations = 0;
+  // The functions of this program that led to the most frequent ones, with their number. What the
+  // compiler has inlined is named as its caller.
+  std::vector<std::string> callers;
+};
+// What the threads have allocated while they were watched; those that allocated nothing are
+// missing.
+std::vector<WatchedThread> watched_allocations();
 
 }  // namespace maploop::testing
