@@ -13,8 +13,8 @@ bool counts_allocations();
 // Returns the number of allocations of the calling thread since it started.
 long thread_allocations();
 
-// Between the two calls, the allocations of all threads are kept with their callers. The first call
-// must precede the start of the threads that are not to be held up by it.
+// Between the two calls, each allocation of any thread is counted with the functions that led to
+// it, which slows the allocating thread. Threads may start and end meanwhile.
 void watch_allocations();
 void unwatch_allocations();
 
@@ -25,8 +25,7 @@ struct WatchedThread {
   // compiler has inlined is named as its caller.
   std::vector<std::string> callers;
 };
-// What the threads have allocated while they were watched; those that allocated nothing are
-// missing.
+// Returns one entry for each thread that has allocated while it was watched.
 std::vector<WatchedThread> watched_allocations();
 
 }  // namespace maploop::testing

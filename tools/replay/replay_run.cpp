@@ -221,7 +221,7 @@ vehicle::PlayerParameters Replay::player_parameters() {
     throw std::runtime_error("--start " + shown(options_.start) + " lies after the end, at " +
                              shown(to_seconds(p.last - recording_.first_stamp)) + " s");
   }
-  // What nobody can send back keeps no memory for it.
+  // Without a bus and a terminal, nobody can send the replay back, so it keeps no snapshots.
   if (output_.bus() == nullptr && isatty(STDIN_FILENO) == 0) p.snapshots = 0;
   p.passes = options_.loop == 0 ? std::numeric_limits<std::uint64_t>::max() : options_.loop;
   return p;
