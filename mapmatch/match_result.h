@@ -12,8 +12,9 @@ using maploop::MatchCandidate;
 using maploop::MatchPhase;
 using maploop::RuleBase;
 
+// A MatchResult adds time and place to what the matcher decides about a fix.
 struct MatchResult : LinkMatch {
-  Time stamp{};
+  Time stamp{};     // of the last fix that was not refused
   LinkPoint point;  // matched position and direction, valid if on_road
 };
 

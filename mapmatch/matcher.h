@@ -20,6 +20,7 @@
 
 namespace maploop::mapmatch {
 
+// A Matcher follows one vehicle over the roads of one network.
 class Matcher {
  public:
   // The network and the rules must outlive the matcher.
@@ -31,7 +32,9 @@ class Matcher {
   // the result. The result is valid until the next call.
   const MatchResult& add(const VehicleFix& fix);
 
+  // Returns the network that was given to the constructor.
   const RoadNetwork& network() const { return *network_; }
+  // Returns the rules that were given to the constructor.
   const RuleBases& rules() const { return *rules_; }
 
   // Archives the whole state. Loading refuses an archive of another network or other parameters.

@@ -29,7 +29,9 @@ class NavMatcher {
   // the next call.
   MapMatch& add(const NavState& state);
 
+  // Returns the network that was given to the constructor.
   const RoadNetwork& network() const { return matcher_.network(); }
+  // Returns the rules that were given to the constructor.
   const RuleBases& rules() const { return matcher_.rules(); }
 
   // Archives the whole state. Loading refuses an archive of another network or other parameters.

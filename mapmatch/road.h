@@ -28,21 +28,22 @@ enum class RoadClass : std::uint8_t {
   track,
 };
 
+// Returns the value of `highway` for a class.
 std::string_view to_string(RoadClass road_class);
 // Returns the class for a value of `highway`; nothing if cars cannot drive on it.
 std::optional<RoadClass> parse_road_class(std::string_view highway);
 
 // Holds the attributes that are the same along one way of the map.
 struct Road {
-  std::int64_t way_id = 0;
-  RoadClass road_class = RoadClass::road;
-  bool forward = true;      // may be driven from its first node to its last
-  bool backward = true;     // may be driven from its last node to its first
-  bool restricted = false;  // access=no or private, for cars
-  bool roundabout = false;
-  bool bridge = false;
-  bool tunnel = false;
-  std::int8_t layer = 0;
+  std::int64_t way_id = 0;                 // OpenStreetMap's
+  RoadClass road_class = RoadClass::road;  // from `highway`
+  bool forward = true;                     // may be driven from its first node to its last
+  bool backward = true;                    // may be driven from its last node to its first
+  bool restricted = false;                 // no public access by car, such as access=private
+  bool roundabout = false;   // also other circular junctions; one-way unless tagged otherwise
+  bool bridge = false;       // it is on a bridge
+  bool tunnel = false;       // it is in a tunnel
+  std::int8_t layer = 0;     // level above (positive) or below others that it crosses; 0: ground
   std::uint8_t lanes = 0;    // 0: unknown
   double speed_limit = 0.0;  // m/s; 0: unknown or unlimited
   std::string name;          // name, or reference ("B 3")

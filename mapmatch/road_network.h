@@ -23,10 +23,11 @@ namespace maploop::mapmatch {
 struct Vertex {
   double east = 0.0, north = 0.0;  // m, in the network's frame
   double along = 0.0;              // m from the link's first vertex
-  std::int64_t node_id = 0;
+  std::int64_t node_id = 0;        // OpenStreetMap's
   std::uint32_t road =
       0;  // of the segment that starts here; the last vertex repeats the one before
 
+  // Returns east and north in m.
   Eigen::Vector2d position() const { return {east, north}; }
 };
 
@@ -35,14 +36,15 @@ void archive(Archive& ar, Vertex& v) {
   ar(v.east, v.north, v.along, v.node_id, v.road);
 }
 
+// A Link is the way from one junction to the next, in one or both directions.
 struct Link {
-  std::uint32_t first_vertex = 0;
+  std::uint32_t first_vertex = 0;    // index in NetworkData::vertices; the others follow
   std::uint32_t vertex_count = 0;    // at least 2
   std::uint32_t start_junction = 0;  // of its first vertex
-  std::uint32_t end_junction = 0;
-  bool forward = true;   // may be driven from its first vertex to its last
-  bool backward = true;  // may be driven from its last vertex to its first
-  double length = 0.0;   // m
+  std::uint32_t end_junction = 0;    // of its last vertex
+  bool forward = true;               // may be driven from its first vertex to its last
+  bool backward = true;              // may be driven from its last vertex to its first
+  double length = 0.0;               // m
 };
 
 template <class Archive>
@@ -55,8 +57,8 @@ using maploop::DirectedLink;
 
 // A junction refers to its exits in NetworkData::exits.
 struct Junction {
-  std::int64_t node_id = 0;
-  std::uint32_t first_exit = 0;
+  std::int64_t node_id = 0;      // OpenStreetMap's
+  std::uint32_t first_exit = 0;  // index in NetworkData::exits; the others follow
   std::uint32_t exit_count = 0;  // links that start or end here, including forbidden directions
 };
 
@@ -67,7 +69,7 @@ void archive(Archive& ar, Junction& j) {
 
 // The turn from `from` to `to` is forbidden.
 struct BannedTurn {
-  DirectedLink from, to;
+  DirectedLink from, to;  // driven before and after the junction
 };
 
 template <class Archive>
@@ -86,11 +88,11 @@ struct LinkPoint {
 
 // Holds the content of a network file; everything else is computed from it.
 struct NetworkData {
-  Geodetic origin;  // of the local frame; its height is 0, as is that of all map positions
-  std::vector<Road> roads;
-  std::vector<Vertex> vertices;
-  std::vector<Link> links;
-  std::vector<Junction> junctions;
+  Geodetic origin;          // of the local frame; its height is 0, as is that of all map positions
+  std::vector<Road> roads;  // Vertex::road is an index here
+  std::vector<Vertex> vertices;       // link by link, in the order of its shape
+  std::vector<Link> links;            // DirectedLink::link is an index here
+  std::vector<Junction> junctions;    // Link::start_junction and end_junction are indices here
   std::vector<DirectedLink> exits;    // by junction
   std::vector<BannedTurn> banned;     // sorted by `from`
   std::vector<std::string> warnings;  // notes on the map such as omitted content, one sentence each
@@ -101,26 +103,37 @@ void archive(Archive& ar, NetworkData& d) {
   ar(d.origin, d.roads, d.vertices, d.links, d.junctions, d.exits, d.banned, d.warnings);
 }
 
+// A RoadNetwork answers questions about its data. Its functions do not check the indices of links,
+// vertices and junctions that they are given: these must exist.
 class RoadNetwork {
  public:
   // Throws std::invalid_argument if the data are inconsistent (an index out of range, a link
   // without length, positions that are not finite).
   explicit RoadNetwork(NetworkData data);
 
+  // Returns what the network was built from.
   const NetworkData& data() const { return data_; }
+  // Returns the frame of local metres, whose origin is that of the data.
   const LocalFrame& frame() const { return frame_; }
+  // Returns the index by which segments are found near a place.
   const SegmentIndex& index() const { return index_; }
 
   // Returns east and north (m) of a place; its height is ignored.
   Eigen::Vector2d to_local(const Geodetic& place) const;
+  // Returns the place at height 0 that has this east and north (m).
   Geodetic to_geodetic(const Eigen::Vector2d& place) const;
 
+  // Returns the number of links.
   std::size_t size() const { return data_.links.size(); }
+  // Returns a link by its index, which is below size().
   const Link& link(std::uint32_t i) const { return data_.links[i]; }
+  // Returns a vertex by its index in NetworkData::vertices.
   const Vertex& vertex(std::uint32_t i) const { return data_.vertices[i]; }
+  // Returns the road of the segment that starts at a vertex.
   const Road& road_at(std::uint32_t vertex) const {
     return data_.roads[data_.vertices[vertex].road];
   }
+  // Returns all vertices of a link, in the order in which they are stored.
   std::span<const Vertex> shape(std::uint32_t link) const {
     return {data_.vertices.data() + data_.links[link].first_vertex, data_.links[link].vertex_count};
   }
@@ -129,10 +142,14 @@ class RoadNetwork {
   bool allowed(DirectedLink d) const {
     return d.forward ? link(d.link).forward : link(d.link).backward;
   }
+  // Returns whether no restriction of the map bans this turn. It does not matter whether the links
+  // meet, or may be driven in this direction.
   bool allowed_turn(DirectedLink from, DirectedLink to) const;
+  // Returns the junction to which a directed link leads, as an index in NetworkData::junctions.
   std::uint32_t end_junction(DirectedLink d) const {
     return d.forward ? link(d.link).end_junction : link(d.link).start_junction;
   }
+  // Returns the junction from which a directed link comes.
   std::uint32_t start_junction(DirectedLink d) const { return end_junction(d.reversed()); }
   // Returns the links that leave a junction, including those against one-way streets.
   std::span<const DirectedLink> exits(std::uint32_t junction) const {

@@ -9,11 +9,12 @@
 
 namespace maploop::mapmatch {
 
+// This value (NaN) stands for what is not known.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // Fields that are `unknown` are not used. `stamp` is that of the position.
 struct VehicleFix {
-  Time stamp{};
+  Time stamp{};                                                     // UTC
   Geodetic position;                                                // height is ignored
   Eigen::Matrix2d covariance = 25.0 * Eigen::Matrix2d::Identity();  // m^2, east and north
   double speed = unknown;                                           // m/s, forward

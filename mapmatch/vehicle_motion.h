@@ -13,25 +13,27 @@ namespace maploop::mapmatch {
 
 // Describes the motion up to a fix. Angles are in rad.
 struct Motion {
-  double interval = 0.0;  // s since the previous fix; 0 at the first
-  double speed = 0.0;     // m/s
-  double speed_sigma = 0.0;
-  double azimuth = unknown;  // unknown at low speed
-  double azimuth_sigma = 0.0;
+  double interval = 0.0;                           // s since the previous fix; 0 at the first
+  double speed = 0.0;                              // m/s
+  double speed_sigma = 0.0;                        // m/s
+  double azimuth = unknown;                        // unknown at low speed
+  double azimuth_sigma = 0.0;                      // 0 if the azimuth is unknown
   double distance = 0.0;                           // m since the previous fix
   Eigen::Vector2d step = Eigen::Vector2d::Zero();  // m, the same as a vector
   double turn = unknown;                           // |change of azimuth| over the last second
   double turn_rate = unknown;                      // rad/s, magnitude over the last second
   double reversal = unknown;                       // |change of azimuth| over the last 6 s
   // These come from visual odometry if it agrees with the fixes.
-  double visual_speed = unknown;
+  double visual_speed = unknown;     // m/s
   double visual_turn = unknown;      // |change of azimuth| over the last second
   double visual_reversal = unknown;  // over the last 6 s
   double white_share = 0.5;          // share of the fixes' variance that changes between fixes
 };
 
+// A VehicleMotion remembers the fixes of the last seconds. It is not thread-safe.
 class VehicleMotion {
  public:
+  // Forgets all fixes: the next one counts as the first.
   void reset() { *this = VehicleMotion(); }
 
   // Takes fixes in the order of their stamps; `place` is the fix in local metres. Speed or azimuth

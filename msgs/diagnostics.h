@@ -15,9 +15,10 @@ namespace maploop {
 // Holds the counts of a latency histogram, so that two of them can be added without loss
 // (runtime/core/histogram.h defines its buckets).
 struct HistogramData {
+  // One bucket that has counted a value.
   struct Bucket {
-    Duration lowest{};  // the smallest value that it counts
-    std::uint64_t count = 0;
+    Duration lowest{};        // the smallest value that it counts
+    std::uint64_t count = 0;  // of the values in it
 
     void archive(auto& ar) { ar(lowest, count); }
   };
@@ -31,17 +32,18 @@ struct HistogramData {
 
 // Describes one missed deadline and where the time went.
 struct MissedDeadline {
+  // One part of the latency; of a path, how much later it was than its budget.
   struct Part {
-    std::string name;  // a stage, or what delayed the thread
-    Duration lasted{};
+    std::string name;   // a stage, or what delayed the thread
+    Duration lasted{};  // time that it took
 
     void archive(auto& ar) { ar(name, lasted); }
   };
-  Time stamp{};  // of the tick, or of the sample
-  Duration latency{};
-  std::vector<Part> parts;
+  Time stamp{};             // of the tick, or of the sample
+  Duration latency{};       // from release to result, or from the sensor's stamp to the state
+  std::vector<Part> parts;  // where the time went; at most three
 
-  // Returns the name of the longest part.
+  // Returns the name of the longest part; empty if there is none.
   std::string guilty() const {
     const auto longest =
         std::max_element(parts.begin(), parts.end(),
@@ -54,13 +56,13 @@ struct MissedDeadline {
 
 // Summarizes the latency of one thread, or of one path from sensor stamp to state, since the start.
 struct LatencySummary {
-  std::string name;
-  std::uint64_t count = 0;
-  std::uint64_t misses = 0;  // of `deadline`
-  Duration deadline{};       // 0 if none is declared
-  Duration p50{}, p90{}, p99{}, p999{}, max{};
-  std::string guilty{};                 // longest part of the worst miss
-  HistogramData histogram{};            // the recorded values behind the figures above
+  std::string name;                             // of the thread or the path
+  std::uint64_t count = 0;                      // of the latencies recorded
+  std::uint64_t misses = 0;                     // of `deadline`
+  Duration deadline{};                          // 0 if none is declared
+  Duration p50{}, p90{}, p99{}, p999{}, max{};  // 50, 90, 99, 99.9 % quantiles and maximum
+  std::string guilty{};                         // longest part of the worst miss
+  HistogramData histogram{};                    // the recorded values behind the figures above
   HistogramData omitted{};              // waits to be added to correct co-ordinated omission
   std::vector<MissedDeadline> worst{};  // at most ten, the longest first
 
@@ -69,11 +71,12 @@ struct LatencySummary {
   }
 };
 
-// Period jitter is how much the time between two wake-ups differs from that between their due
+// Reports all latencies since the start, by thread and by path from a sensor to the state. Period
+// jitter is how much the time between two wake-ups differs from that between their due
 // times. Only `threads` has `omitted` waits, deadlines and misses, and `paths` has the latter two;
 // the others are as recorded.
 struct Deadlines {
-  Time stamp{};
+  Time stamp{};                             // data time of the report
   std::vector<LatencySummary> threads;      // from release to result
   std::vector<LatencySummary> paths;        // from the sensor's stamp to the state that contains it
   std::vector<LatencySummary> wake_up{};    // by thread: from ready to running
@@ -85,32 +88,38 @@ struct Deadlines {
 
 // Describes one property of the car or of a sensor that the filter estimates while it runs.
 struct EstimatedProperty {
-  std::string name;
-  std::string unit;
-  double value = 0.0;
-  double sigma = 0.0;
+  std::string name;             // in words
+  std::string unit;             // of the value and both sigmas
+  double value = 0.0;           // as estimated now
+  double sigma = 0.0;           // its standard deviation now
   double sigma_at_start = 0.0;  // before any measurement
   bool observed = false;        // the motion has shown it: the sigma is below half of that
 
   void archive(auto& ar) { ar(name, unit, value, sigma, sigma_at_start, observed); }
 };
 
+// Reports what the filter has estimated of the car and its sensors.
 struct SelfCalibration {
-  Time stamp{};
+  Time stamp{};                               // data time of the report
   std::vector<EstimatedProperty> properties;  // none before the filter has started
 
   void archive(auto& ar) { ar(stamp, properties); }
 };
 
+// Counts the samples of one ring between two threads. While neither uses it, what was pushed is
+// what was popped, lost, or is held.
 struct RingHealth {
-  std::string name;
+  std::string name;  // "imu -> fusion"
+  // Samples that the producer offered, that the consumer took, that were not stored (mostly because
+  // the ring was full), and that are in the ring now; and how many it can hold.
   std::uint64_t pushed = 0, popped = 0, lost = 0, held = 0, capacity = 0;
 
   void archive(auto& ar) { ar(name, pushed, popped, lost, held, capacity); }
 };
 
+// Describes the state of one thread: a sensor's driver or a stage.
 struct ThreadHealth {
-  std::string name;
+  std::string name;                      // of the driver or the stage
   std::string scheduling;                // as the kernel granted it: "fifo 50", "other"
   std::uint64_t count = 0;               // samples or ticks so far
   double rate = 0.0;                     // Hz of data time, over the last second
@@ -123,58 +132,59 @@ struct ThreadHealth {
 
 // Counts the measurements that an estimator has refused so far.
 struct RefusalCount {
-  std::string stage;
-  std::string reason;
-  std::uint64_t count = 0;
+  std::string stage;        // that refused them
+  std::string reason;       // in words
+  std::uint64_t count = 0;  // of measurements with this reason
 
   void archive(auto& ar) { ar(stage, reason, count); }
 };
 
 // Counts the messages to one output: the bus, the log.
 struct OutputHealth {
-  std::string name;
-  std::uint64_t sent = 0, unsent = 0;  // messages
+  std::string name;                    // "LCM", "log"
+  std::uint64_t sent = 0, unsent = 0;  // messages taken; not sent or not written
 
   void archive(auto& ar) { ar(name, sent, unsent); }
 };
 
 // Compares a sensor's clock with the host's, from the arrival times of its messages.
 struct SensorClock {
-  bool known = false;
+  bool known = false;                 // whether there are messages to compare
   std::optional<Duration> utc_ahead;  // its UTC minus the host's clock; nothing if unknown
   double drift = 0.0;                 // rate of the host's clock relative to it, minus 1
   Duration delay{};                   // of the last message, beyond the minimum
-  std::uint64_t jumps = 0;
+  std::uint64_t jumps = 0;            // how often a clock jumped and the comparison began anew
 
   void archive(auto& ar) { ar(known, utc_ahead, drift, delay, jumps); }
 };
 
 // Describes the state of a live sensor.
 struct SensorHealth {
-  std::string name;
-  std::string endpoint;
-  bool connected = false;
+  std::string name;                          // of the driver
+  std::string endpoint;                      // what it connects to: a port, a host, a pipeline
+  bool connected = false;                    // whether the connection is open now
   std::uint64_t connections = 0;             // how often it was connected
   std::uint64_t delivered = 0, refused = 0;  // samples; packets and lines
   std::string problem;                       // why it is not connected
-  SensorClock clock;
+  SensorClock clock;                         // compared with the host's
 
   void archive(auto& ar) {
     ar(name, endpoint, connected, connections, delivered, refused, problem, clock);
   }
 };
 
+// Reports once a second how the whole run is doing.
 struct Health {
-  Time stamp{};
-  std::vector<ThreadHealth> threads;
-  std::vector<RingHealth> rings;
-  std::vector<RefusalCount> refusals;  // those that occurred
-  std::vector<OutputHealth> outputs;
-  std::vector<SensorHealth> sensors;  // live ones
-  std::vector<RealtimeSetting> settings;
-  std::vector<std::string> degraded;  // each a sentence: what, since when, what to do
-  double elapsed = 0.0;               // s of this machine's time since the start
-  double cpu = 0.0;                   // s of the whole process's processor time
+  Time stamp{};                           // data time of the report
+  std::vector<ThreadHealth> threads;      // drivers and stages
+  std::vector<RingHealth> rings;          // between the threads
+  std::vector<RefusalCount> refusals;     // those that occurred
+  std::vector<OutputHealth> outputs;      // where messages go
+  std::vector<SensorHealth> sensors;      // live ones
+  std::vector<RealtimeSetting> settings;  // what was requested of the machine, and granted
+  std::vector<std::string> degraded;      // each a sentence: what, since when, what to do
+  double elapsed = 0.0;                   // s of this machine's time since the start
+  double cpu = 0.0;                       // s of the whole process's processor time
 
   void archive(auto& ar) {
     ar(stamp, threads, rings, refusals, outputs, sensors, settings, degraded, elapsed, cpu);

@@ -21,23 +21,27 @@ inline double wrap_angle(double angle) {
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
 }
 
+// Converts a yaw to the azimuth of the same direction, in (-pi, pi], rad.
 inline double azimuth_from_yaw(double yaw) {
   return wrap_angle(std::numbers::pi / 2.0 - yaw);
 }
+// Converts an azimuth to the yaw of the same direction, in (-pi, pi], rad.
 inline double yaw_from_azimuth(double azimuth) {
   return wrap_angle(std::numbers::pi / 2.0 - azimuth);
 }
 
+// Converts deg to rad.
 constexpr double radians(double degrees) {
   return degrees * std::numbers::pi / 180.0;
 }
+// Converts rad to deg.
 constexpr double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
 }
 
 // This is the attitude of the body in ENU.
 struct Attitude {
-  double azimuth = 0.0;  // rad
+  double azimuth = 0.0;  // rad, clockwise from north
   double pitch = 0.0;    // rad, nose up
   double roll = 0.0;     // rad, right side down
 

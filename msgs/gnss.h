@@ -25,9 +25,9 @@ struct GnssIncrement {
   }
 };
 
-// `stamp` is that of the position.
+// This is a position and a velocity of a GNSS receiver. `stamp` is that of the position.
 struct GnssFix : Sample {
-  Geodetic position;
+  Geodetic position;                                              // of the antenna
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  // m^2, east north up
   Time velocity_stamp{};  // some receivers deliver a velocity older than their position
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();         // m/s

@@ -17,11 +17,14 @@ struct InertialValues {
   double roll_rate = 0.0;          // rad/s about body x, positive when the right side goes down
   double pitch_rate = 0.0;         // rad/s about body y, positive when the nose goes down
 
-  bool operator==(const InertialValues&) const = default;
+  bool operator==(const InertialValues&) const = default;  // exact
 };
 
+// This is what the unit measured at `stamp`.
 struct ImuSample : Sample, InertialValues {
+  // Returns the measured values without the stamps.
   const InertialValues& values() const { return *this; }
+  // Returns the same, for writing.
   InertialValues& values() { return *this; }
 
   void archive(auto& ar) {

@@ -8,6 +8,7 @@
 
 namespace maploop {
 
+// This is one return of a laser pulse.
 struct LidarPoint {
   float x, y, z;      // m, in velo; raw: not corrected for the vehicle's motion
   float reflectance;  // 0..1
@@ -18,9 +19,9 @@ struct LidarPoint {
 // `stamp` is the middle of the scan; of a turn, when the LiDAR faces forward. Buffers keep their
 // capacity.
 struct LidarScan : Sample {
-  Time start{};
-  Time end{};
-  std::vector<LidarPoint> points;
+  Time start{};                    // when the scan began
+  Time end{};                      // when it ended
+  std::vector<LidarPoint> points;  // all of the scan
   // When each point was measured, in s after `stamp`. Empty: the LiDAR turned clockwise, seen from
   // above, from the rear at `start` to the rear at `end`, so that azimuths are times.
   std::vector<float> times;

@@ -38,9 +38,9 @@ constexpr auto names_of(FeedbackReason) {
 // Describes the line of the road at the matched point: the vehicle is on it, except for its lane
 // and the map's error. `stamp` is the fix's.
 struct MapFeedback : Sample {
-  FeedbackReason reason = FeedbackReason::no_fix;
-  bool position = false;    // the line is fed back
-  bool azimuth = false;     // its direction is fed back
+  FeedbackReason reason = FeedbackReason::no_fix;  // none: there is feedback
+  bool position = false;                           // the line is fed back
+  bool azimuth = false;                            // its direction is fed back
   bool reset = false;       // hard reset: position and azimuth become the matched ones
   bool new_road = false;    // the first on a road other than the previous one: another lane offset
   bool off_ground = false;  // the matched road is a bridge, in a tunnel or on another level

@@ -15,6 +15,7 @@
 
 namespace maploop {
 
+// States which step of the matching a fix is in (IMP: initial, SMP: subsequent matching).
 enum class MatchPhase : std::uint8_t {
   initial,      // IMP: no link is established yet
   along_link,   // SMP-1: still on the link
@@ -46,29 +47,31 @@ constexpr auto names_of(RuleBase) {
 // reverse.
 struct DirectedLink {
   std::uint32_t link = 0;  // index in the road network in use
-  bool forward = true;
+  bool forward = true;     // whether it is driven from its first vertex to its last
 
+  // Returns the same link, driven the other way.
   DirectedLink reversed() const { return {link, !forward}; }
-  bool operator==(const DirectedLink&) const = default;
+  bool operator==(const DirectedLink&) const = default;  // same link and same direction
 
   void archive(auto& ar) { ar(link, forward); }
 };
 
 // This is a link that the vehicle may be on. NaN means unknown.
 struct MatchCandidate {
-  static constexpr std::size_t max_rules = 32;
+  static constexpr std::size_t max_rules = 32;  // of a rule base
+  // The value of a member that is not known.
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  DirectedLink link;
+  DirectedLink link;                // as it would be driven
   std::int64_t way_id = 0;          // OpenStreetMap's, of the segment, ...
   std::int64_t node_a = 0;          // ... which is driven from here
   std::int64_t node_b = 0;          // to here
   double along = 0.0;               // m from where the link is entered
   double distance = 0.0;            // m from the fix
   double azimuth_error = unknown;   // rad, 0 to pi
-  double connectivity = 0.0;        // 1: legal from the previous link; 0: not
+  double connectivity = 0.0;        // 1 or 0.9: legal from the previous link; 0.3: not; 0: no path
   double distance_error = unknown;  // m between the path along the roads and the distance travelled
-  RuleBase rules = RuleBase::initial;
+  RuleBase rules = RuleBase::initial;      // by which it was judged
   bool decided = false;                    // whether any rule applied
   double likelihood = 0.0;                 // of the rules, 10 to 100
   std::array<float, max_rules> weights{};  // of each rule
@@ -82,20 +85,20 @@ struct MatchCandidate {
 
 // This is what the matcher decides about one fix.
 struct LinkMatch {
-  static constexpr std::size_t max_candidates = 24;
+  static constexpr std::size_t max_candidates = 24;  // further links are left out
 
-  FixRefusal refusal = FixRefusal::none;  // of this fix; the rest is then the previous fix's
-  MatchPhase phase = MatchPhase::initial;
+  FixRefusal refusal = FixRefusal::none;   // of this fix; the rest is then the previous fix's
+  MatchPhase phase = MatchPhase::initial;  // of the matching, after this fix
   bool on_road = false;  // whether there is a link; the members up to `margin` describe it
-  DirectedLink link;
-  double along = 0.0;                            // m from where the link is entered
+  DirectedLink link;     // the matched one, as driven
+  double along = 0.0;    // m from where the link is entered
   double sigma_along = 0.0, sigma_across = 0.0;  // m, of the matched position
   double likelihood = 0.0;                       // of the rules, 10 to 100
   double probability = 0.0;                      // P(link), calibrated
   double margin = 0.0;                           // to the probability of the second
   double off_road = 0.0;                         // P(the vehicle is on no road of the map)
   std::array<MatchCandidate, max_candidates> candidates{};  // the most likely first
-  std::size_t candidate_count = 0;
+  std::size_t candidate_count = 0;  // valid ones at the front of `candidates`
 
   void archive(auto& ar) {
     ar(refusal, phase, on_road, link, along, sigma_along, sigma_across, likelihood, probability,
@@ -105,7 +108,7 @@ struct LinkMatch {
 
 // This is the match of the fused state at `stamp`. Members in `enu` are in the frame of that state;
 // azimuths are clockwise from its north. It is sent for every tick; `refusal` and `on_road` tell
-// whether it contains a link.
+// whether it contains a link. If the state is refused there are neither link nor candidates.
 struct MapMatch : Sample, LinkMatch {
   std::int64_t way_id = 0, node_a = 0, node_b = 0;           // OSM segment, as driven
   Geodetic origin;                                           // of enu
@@ -129,12 +132,13 @@ struct MapMatch : Sample, LinkMatch {
 
 // This describes the same match in words for people.
 struct MapMatchWords {
+  // One candidate of the match.
   struct Candidate {
     std::string road;                     // name and way
     std::vector<std::string> objections;  // arguments against it
     std::vector<std::string> rules;       // those that applied, the weightiest first, with weights
   };
-  std::string explanation;
+  std::string explanation;            // the link and why it, or why there is none
   std::vector<Candidate> candidates;  // in the order of the match
 };
 

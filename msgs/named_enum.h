@@ -20,14 +20,17 @@ constexpr std::array<std::string_view, n> names_up_to(const std::string_view (&n
   return std::to_array(names);
 }
 
+// This is an enumeration with a function names_of().
 template <class Enum>
 concept NamedEnum = std::is_enum_v<Enum> && requires(Enum value) {
   names_of(value);
 };
 
+// The names of an enumeration's values, in the order of the values.
 template <NamedEnum Enum>
 inline constexpr auto enum_names = names_of(Enum{});
 
+// The number of an enumeration's values.
 template <NamedEnum Enum>
 inline constexpr std::size_t count_of = enum_names<Enum>.size();
 
@@ -38,6 +41,7 @@ constexpr std::string_view to_string(Enum value) {
   return i < count_of<Enum> ? enum_names<Enum>[i] : "unknown";
 }
 
+// Does the reverse of to_string(); returns nothing if no value has that name.
 template <NamedEnum Enum>
 constexpr std::optional<Enum> value_named(std::string_view name) {
   for (std::size_t i = 0; i < count_of<Enum>; ++i) {

@@ -17,7 +17,7 @@ struct OdomState : Sample {
   NavStatus status = NavStatus::uninitialized;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();       // m, the IMU's
   Attitude attitude;                                        // azimuth clockwise from odom's y axis
-  Eigen::Vector3d velocity_body = Eigen::Vector3d::Zero();  // m/s
+  Eigen::Vector3d velocity_body = Eigen::Vector3d::Zero();  // m/s, forward, left, up
   double yaw_rate = 0.0;                                    // rad/s, without the gyro's bias
 
   void archive(auto& ar) {
@@ -44,8 +44,8 @@ struct OdometryMount {
 // This is what the fusion gives out: the pose in the frame of the map, which fixes and roads may
 // move at once, and that in the frame of odometry. Both have the same stamp.
 struct FusedState : NavState {
-  OdomState odom;
-  OdometryMount mount;
+  OdomState odom;       // the pose in the frame of odometry
+  OdometryMount mount;  // of odometry's sensors, beside their description
 
   void archive(auto& ar) { ar(static_cast<NavState&>(*this), odom, mount); }
 };

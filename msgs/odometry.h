@@ -10,6 +10,7 @@
 
 namespace maploop {
 
+// States whether there is a usable motion, and otherwise why not.
 enum class OdometryStatus : std::uint8_t {
   ok,
   first_frame,       // nothing to compare with yet
@@ -43,6 +44,7 @@ constexpr auto names_of(OdometryCondition) {
   return names_up_to<OdometryCondition::after_gap>({"ordinary", "standstill", "after a gap"});
 }
 
+// Names the sensors that a motion is from.
 enum class OdometrySource : std::uint8_t {
   visual,
   lidar,
@@ -62,10 +64,10 @@ constexpr auto names_of(MotionDirection) {
 // This is the pose of the body at `stamp` in the body frame at `from`. It is sent for every input:
 // if there is no motion to report, `status` states why and the pose must not be used.
 struct RelativeMotion : Sample {
-  OdometryStatus status = OdometryStatus::first_frame;
-  OdometryCondition condition = OdometryCondition::ordinary;
+  OdometryStatus status = OdometryStatus::first_frame;        // ok: the pose may be used
+  OdometryCondition condition = OdometryCondition::ordinary;  // of a usable motion
   double parallax = 0.0;  // px, median image motion without the rotation's part; LiDAR: 0
-  Time from{};
+  Time from{};            // stamp of the earlier image or scan
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();         // m
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // unit
   // Covariance of the body's pose at `stamp`: translation (m), then rotation vector (rad), both in
@@ -73,8 +75,9 @@ struct RelativeMotion : Sample {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int tracked = 0;  // features (LiDAR: surface points) offered to the motion estimate
   int inliers = 0;  // those that agree with it (LiDAR: have a partner in the map)
-  OdometrySource source = OdometrySource::visual;
+  OdometrySource source = OdometrySource::visual;  // the sensors that it is from
 
+  // Returns the pose of the body at `stamp` in the body frame at `from`.
   Eigen::Isometry3d T_from_to() const { return Eigen::Translation3d(translation) * rotation; }
 
   void archive(auto& ar) {
@@ -88,7 +91,7 @@ struct LidarMotion : RelativeMotion {
   std::uint8_t degenerate = 0;          // bit MotionDirection: undetermined, the seed's is kept
   int iterations = 0;                   // of the registration
   double seed_translation_error = 0.0;  // m, change of the seed by the registration
-  double seed_rotation_error = 0.0;     // rad
+  double seed_rotation_error = 0.0;     // rad, the same of its rotation
 
   void archive(auto& ar) {
     ar(static_cast<RelativeMotion&>(*this), degenerate, iterations, seed_translation_error,

@@ -13,6 +13,7 @@
 
 namespace maploop {
 
+// States how good the position of an epoch is.
 enum class PppStatus : std::uint8_t {
   none,        // no position: the message states why
   converging,  // the ambiguities have not converged yet
@@ -74,18 +75,19 @@ constexpr auto names_of(PppMap) {
   return names_up_to<PppMap::paused>({"none", "aiding", "paused"});
 }
 
+// This is one satellite of an epoch, and what of its measurements was used.
 struct PppSatellite {
-  char system = 'G';        // RINEX's letter
-  std::uint8_t number = 0;  // as RINEX 3 writes it
-  float azimuth = 0.0F;     // rad, clockwise from north
-  float elevation = 0.0F;   // rad; both are 0 without an ephemeris
-  float cn0 = 0.0F;         // dB-Hz
-  bool code_used = false;
-  bool phase_used = false;
-  float code_residual = 0.0F;  // m, after the update
-  float phase_residual = 0.0F;
-  PppRefusal refusal = PppRefusal::none;
-  PppSlip slip = PppSlip::none;
+  char system = 'G';                      // RINEX's letter
+  std::uint8_t number = 0;                // as RINEX 3 writes it
+  float azimuth = 0.0F;                   // rad, clockwise from north
+  float elevation = 0.0F;                 // rad; both are 0 without an ephemeris
+  float cn0 = 0.0F;                       // dB-Hz
+  bool code_used = false;                 // in the solution
+  bool phase_used = false;                // in the solution
+  float code_residual = 0.0F;             // m, after the update
+  float phase_residual = 0.0F;            // m, after the update
+  PppRefusal refusal = PppRefusal::none;  // why not all of it was used
+  PppSlip slip = PppSlip::none;           // why its ambiguity restarted
 
   void archive(auto& ar) {
     ar(system, number, azimuth, elevation, cn0, code_used, phase_used, code_residual,
@@ -101,26 +103,27 @@ struct ProtectionLevels {
   void archive(auto& ar) { ar(along, across, up); }
 };
 
-// `stamp` is the epoch's. Without a position everything but satellites and message is zero.
+// `stamp` is the epoch's. Without a position, the position, the velocity, their
+// covariances, the protection levels and the zenith delay are zero.
 struct PppState : Sample {
-  PppStatus status = PppStatus::none;
-  std::string message;  // why there is no position, and remarks about the epoch
-  Geodetic position;    // of the antenna's marker
+  PppStatus status = PppStatus::none;  // none: there is no position
+  std::string message;                 // why there is no position, and remarks about the epoch
+  Geodetic position;                   // of the antenna's marker
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  // m^2, east north up
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();         // m/s
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // m^2/s^2
-  ProtectionLevels protection;
-  double integrity_risk = 0.0;  // probability for each level, at one epoch
-  double zenith_delay = 0.0;    // m, of the whole troposphere
-  double zenith_delay_sigma = 0.0;
-  double code_rms = 0.0;        // m, of the residuals used
-  double phase_rms = 0.0;       // m
-  double converging_for = 0.0;  // s since the filter started or restarted
-  std::uint64_t restarts = 0;   // how often it restarted
-  PppMap map = PppMap::none;
-  std::uint64_t roads_used = 0;     // lines of the map fed back so far
-  std::uint64_t roads_refused = 0;  // lines too far away, without effect, or unusable
-  std::int32_t satellites_used = 0;
+  ProtectionLevels protection;                                    // of the position
+  double integrity_risk = 0.0;            // probability for each level, at one epoch
+  double zenith_delay = 0.0;              // m, of the whole troposphere
+  double zenith_delay_sigma = 0.0;        // m, its standard deviation
+  double code_rms = 0.0;                  // m, of the residuals used
+  double phase_rms = 0.0;                 // m, of the residuals used
+  double converging_for = 0.0;            // s since the filter started or restarted
+  std::uint64_t restarts = 0;             // how often it restarted
+  PppMap map = PppMap::none;              // how the road map affects the position
+  std::uint64_t roads_used = 0;           // lines of the map fed back so far
+  std::uint64_t roads_refused = 0;        // lines too far away, without effect, or unusable
+  std::int32_t satellites_used = 0;       // with their code, their phase or both
   std::int32_t satellites_corrected = 0;  // of those measured, by received corrections
   std::optional<double> correction_age;   // s, of the newest correction; nothing if none ever came
   std::vector<PppSatellite> satellites;   // all that were measured

@@ -10,11 +10,12 @@
 
 namespace maploop {
 
-// `stamp` is that of the position and the attitude.
+// This is the reference for the pose and the velocity of the body. `stamp` is that of the position
+// and the attitude.
 struct ReferencePose : Sample {
-  Geodetic position;
-  Attitude attitude;
-  Time velocity_stamp{};
+  Geodetic position;      // of the body's origin
+  Attitude attitude;      // of the body
+  Time velocity_stamp{};  // some recorders give a velocity older than the position
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();  // m/s
   double position_accuracy = 0.0;                          // m, as the recorder states it
 

@@ -8,6 +8,7 @@
 
 namespace maploop {
 
+// This is the base of every sample of a sensor and every result of an estimator.
 struct Sample {
   Time stamp{};              // moment of the measurement (of a result: the moment it describes)
   Time available{};          // when the sensor delivers it (a result: trigger's available + budget)

@@ -9,6 +9,7 @@
 
 namespace maploop {
 
+// This is every difference of times, in ns; it may be negative.
 using Duration = std::chrono::nanoseconds;
 
 // Nanoseconds since 1970-01-01 UTC. Every stamp uses this clock, and (in microseconds) LCM's utime.
@@ -17,10 +18,12 @@ using Time = std::chrono::sys_time<Duration>;
 // This is the machine's own steady clock, used only to wait and to measure durations.
 using MonotonicTime = std::chrono::time_point<std::chrono::steady_clock, Duration>;
 
+// Converts to s, for calculations and output; times themselves stay integers.
 constexpr double to_seconds(Duration d) {
   return std::chrono::duration<double>(d).count();
 }
 
+// Converts to ms.
 constexpr double to_milliseconds(Duration d) {
   return 1e3 * to_seconds(d);
 }
@@ -34,9 +37,11 @@ constexpr Duration from_seconds(double seconds) {
 // std::invalid_argument if it is longer than from 1970 to 2200, or not a number.
 Duration checked_seconds(double seconds);
 
+// Returns the nanoseconds since 1970-01-01 UTC.
 constexpr std::int64_t to_nanoseconds(Time t) {
   return t.time_since_epoch().count();
 }
+// Does the reverse.
 constexpr Time from_nanoseconds(std::int64_t ns) {
   return Time(Duration(ns));
 }

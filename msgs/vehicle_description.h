@@ -17,6 +17,7 @@
 
 namespace maploop {
 
+// This is the position of a sensor, measured from the body's origin, and its standard deviations.
 struct SensorPosition {
   double forward = 0.0, left = 0.0, up = 0.0;                    // m
   double forward_sigma = 1.0, left_sigma = 1.0, up_sigma = 1.0;  // m
@@ -29,22 +30,25 @@ struct SensorRotation {
   double roll_sigma = 3.0, pitch_sigma = 3.0, yaw_sigma = 3.0;  // deg
 };
 
+// This is how late a sensor's stamps are, and the standard deviation of it.
 struct SensorTime {
   double delay = 0.0, delay_sigma = 0.1;  // s, from the measurement to its stamp
 };
 
+// Names the side of the road on which traffic keeps.
 enum class RoadSide : std::uint8_t { right, left };
 constexpr std::array<std::string_view, 2> names_of(RoadSide) {
   return {"right", "left"};
 }
 
+// Describes the car without its sensors; the origin is the body's.
 struct CarDescription {
-  std::string name;  // what --state keeps of one car is not used on another
-  RoadSide side_of_road = RoadSide::right;
+  std::string name;                         // what --state keeps of one car is not used on another
+  RoadSide side_of_road = RoadSide::right;  // on which traffic keeps
   double rear_axle_distance = 0.0, rear_axle_distance_sigma = 1.0;  // m, axle to origin, forward
   double rear_axle_height = 0.0, rear_axle_height_sigma = 1.0;      // m, axle above the origin
-  double wheel_radius = 0.32, wheel_radius_sigma = 0.05;            // m
-  double track = 1.5, track_sigma = 0.2;                            // m
+  double wheel_radius = 0.32, wheel_radius_sigma = 0.05;            // m, rear wheel under load
+  double track = 1.5, track_sigma = 0.2;                            // m, between the rear wheels
   double climb_offset = 0.0, climb_offset_sigma = 0.0175;  // rad, direction of travel above body x
   // rad/(m/s^2), slip angle of the rear tyres by lateral acceleration
   double rear_slip = 0.005, rear_slip_sigma = 0.003;
@@ -54,46 +58,54 @@ struct CarDescription {
 struct CameraDescription {
   std::string calibration;    // file of the raw cameras; empty: the images are rectified
   int width = 0, height = 0;  // px; 0: not known
-  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;   // px
-  double focal_sigma = 10.0, center_sigma = 10.0;  // px
-  double baseline = 0.0, baseline_sigma = 0.01;    // m
-  SensorPosition position;
-  SensorRotation rotation;
-  SensorTime time;
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;   // px, focal lengths and principal point
+  double focal_sigma = 10.0, center_sigma = 10.0;  // px, of fx and fy; of cx and cy
+  double baseline = 0.0, baseline_sigma = 0.01;    // m, from the left camera to the right
+  SensorPosition position;                         // of the left camera
+  SensorRotation rotation;                         // of the left camera
+  SensorTime time;                                 // of the images
 };
 
+// Describes the LiDAR and its mounting.
 struct LidarDescription {
-  std::string model = "VLP-16";
+  std::string model = "VLP-16";                              // or "HDL-32E", "HDL-64E"
   std::string calibration;                                   // file db.xml of an HDL-64E
   double beam_elevation = 0.0, beam_elevation_sigma = 0.01;  // rad, beams are higher than stated
-  SensorPosition position;
-  SensorRotation rotation;
-  SensorTime time;
+  SensorPosition position;                                   // of the scanner's origin
+  SensorRotation rotation;                                   // of the scanner's axes
+  SensorTime time;                                           // of the scans
 };
 
+// Describes the mounting of the inertial unit, whose position is the body's origin.
 struct ImuDescription {
-  SensorRotation rotation;
-  SensorTime time;
+  SensorRotation rotation;  // of the unit's own axes
+  SensorTime time;          // of its samples
 };
 
+// Describes the antenna of the GNSS receiver.
 struct AntennaDescription {
-  SensorPosition position;
-  SensorTime time;
+  SensorPosition position;  // lever arm from the inertial unit
+  SensorTime time;          // of the receiver's fixes
 };
 
+// Describes a car with all its sensors.
 struct VehicleDescription {
-  CarDescription car;
-  CameraDescription camera;
-  LidarDescription lidar;
-  ImuDescription imu;
-  AntennaDescription antenna;
+  CarDescription car;          // [vehicle]
+  CameraDescription camera;    // [vehicle.camera]
+  LidarDescription lidar;      // [vehicle.lidar]
+  ImuDescription imu;          // [vehicle.imu]
+  AntennaDescription antenna;  // [vehicle.antenna]
 };
 
 ParameterTable<CarDescription> parameter_table(const CarDescription&);
 ParameterTable<CameraDescription> parameter_table(const CameraDescription&);
 ParameterTable<LidarDescription> parameter_table(const LidarDescription&);
+// Returns the parameters of a sensor's position, as part of the table `name`; `meaning` says which
+// sensor it is. Both texts must outlive the result.
 ParameterTable<SensorPosition> position_table(std::string_view name, std::string_view meaning);
+// Returns those of its rotation.
 ParameterTable<SensorRotation> rotation_table(std::string_view name, std::string_view meaning);
+// Returns those of its delay.
 ParameterTable<SensorTime> time_table(std::string_view name, std::string_view meaning);
 
 // Calls part(table, values) for each part of one or more descriptions, in the order of the file.
@@ -139,14 +151,15 @@ const Parameter<P>* value_of_sigma(const ParameterTable<P>& table, const Paramet
   return parameter_named(table, parameter.key.substr(0, parameter.key.size() - ending.size()));
 }
 
-// These return T_body_sensor of a sensor with x forward, y left, z up; and of a camera (x right, y
-// down, z forward).
+// Returns T_body_sensor of a sensor with x forward, y left, z up.
 Eigen::Isometry3d sensor_pose(const SensorPosition& position, const SensorRotation& rotation);
+// Returns T_body_cam of a camera (x right, y down, z forward).
 Eigen::Isometry3d camera_pose(const SensorPosition& position, const SensorRotation& rotation);
 
-// These do the reverse; standard deviations are not changed.
+// Does the reverse of sensor_pose(); standard deviations are not changed.
 void set_sensor_pose(const Eigen::Isometry3d& T_body_sensor, SensorPosition& position,
                      SensorRotation& rotation);
+// Does the reverse of camera_pose(); standard deviations are not changed.
 void set_camera_pose(const Eigen::Isometry3d& T_body_cam, SensorPosition& position,
                      SensorRotation& rotation);
 

@@ -5,6 +5,7 @@
 
 namespace maploop {
 
+// This is the forward speed at `stamp`, with its standard deviation.
 struct WheelSpeed : Sample {
   double speed = 0.0;  // m/s along the path, negative in reverse
   double sigma = 0.0;  // m/s, white; the filter estimates a scale error (tyres) itself

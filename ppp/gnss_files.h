@@ -18,15 +18,16 @@
 
 namespace maploop::ppp {
 
+// Holds the content of the files by kind, one element for each file, in the order of reading.
 struct GnssFiles {
-  std::vector<Observations> observations;
-  std::vector<NavigationFile> navigation;
-  std::vector<OrbitFile> orbits;
-  std::vector<ClockFile> clocks;
-  std::vector<AntennaFile> antennas;
-  std::vector<BiasFile> biases;
-  std::vector<EarthRotationFile> earth_rotation;
-  std::vector<OceanLoadingFile> ocean_loading;
+  std::vector<Observations> observations;         // RINEX (also compact), UBX and RTCM 3
+  std::vector<NavigationFile> navigation;         // RINEX, and messages within UBX and RTCM 3
+  std::vector<OrbitFile> orbits;                  // SP3
+  std::vector<ClockFile> clocks;                  // RINEX clocks
+  std::vector<AntennaFile> antennas;              // ANTEX
+  std::vector<BiasFile> biases;                   // Bias-SINEX and DCB
+  std::vector<EarthRotationFile> earth_rotation;  // ERP
+  std::vector<OceanLoadingFile> ocean_loading;    // BLQ
 };
 
 // Reads one file, adds it to the list of its kind and returns that kind. Throws ReadError if it

@@ -15,17 +15,18 @@
 
 namespace maploop::ppp {
 
+// Holds what is chosen for a setup, besides the files.
 struct SetupOptions {
-  PppParameters parameters{};
-  Models models{};
-  bool broadcast = false;  // uses broadcast orbits even if precise ones are given
-  std::string heights{};   // tile or folder of tiles; empty: the ground's height is not used
-  std::string geoid{};     // as of HeightModel
+  PppParameters parameters{};  // of the filter
+  Models models{};             // which corrections of the ranges are made
+  bool broadcast = false;      // uses broadcast orbits even if precise ones are given
+  std::string heights{};       // tile or folder of tiles; empty: the ground's height is not used
+  std::string geoid{};         // as of HeightModel
 };
 
 // A LiveReceiver is one whose stream is read; it describes what the header of a file would give.
 struct LiveReceiver {
-  bool one_frequency = false;
+  bool one_frequency = false;   // it measures on one carrier only
   std::string antenna, radome;  // as named in ANTEX; empty: unknown
 };
 
@@ -41,19 +42,26 @@ class PppSetup {
   // other files are used as in the constructor above.
   PppSetup(const GnssFiles& files, const SetupOptions& options, const LiveReceiver& receiver);
 
-  // `received` replaces the orbits, clocks and ionosphere of the files. It must outlive the filter.
+  // Returns a new filter. `received` replaces the orbits, clocks and ionosphere of the files; it
+  // must outlive the filter.
   PppFilter make_filter(const CorrectedEphemeris* received = nullptr) const;
+  // Does the same for a filter that also uses the road that map matching has found.
   MapAidedFilter make_map_aided_filter(const CorrectedEphemeris* received = nullptr) const;
 
+  // Returns whether the observations come from a receiver instead of a file.
   bool live() const { return observations_ == nullptr; }
-  // Precondition: not live.
+  // Returns the observations of the files. Precondition: not live.
   const Observations& observations() const { return *observations_; }
   // Returns the navigation messages of the files; nullptr if there are none and the setup is not
   // live.
   const BroadcastEphemeris* broadcast() const { return broadcast_.get(); }
+  // Returns the parameters from the options.
   const PppParameters& parameters() const { return parameters_; }
+  // Returns the orbits and clocks that a filter uses, unless it is given received ones.
   const Ephemeris& ephemeris() const { return *inputs_.ephemeris; }
+  // Returns whether these are precise products.
   bool precise() const { return precise_ != nullptr; }
+  // Returns whether the receiver measures most satellites on one carrier only.
   bool one_frequency() const { return one_frequency_; }
   // On one frequency, the errors of broadcast orbits, clocks and ionosphere last longer than the
   // filter can average them out: decimetres of error remain, between houses metres.

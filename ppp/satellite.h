@@ -15,22 +15,26 @@ namespace maploop::ppp {
 
 inline constexpr double speed_of_light = 299792458.0;  // m/s
 
+// Names a satellite system.
 enum class System : std::uint8_t { gps, glonass, galileo, beidou, qzss, sbas, navic };
-inline constexpr int system_count = 7;
+inline constexpr int system_count = 7;  // values of System
 
-// The letters are those of RINEX: G R E C J S I.
+// Returns the letter of a system in RINEX: G R E C J S I.
 char letter(System system);
+// Returns the system of a letter; nothing if it has none.
 std::optional<System> system_of(char letter);
 
+// A Satellite is named by its system and its number.
 struct Satellite {
-  System system = System::gps;
-  std::uint8_t number = 0;  // as in RINEX 3, 1 to 99
+  System system = System::gps;  // with `number`, names the satellite
+  std::uint8_t number = 0;      // as in RINEX 3, 1 to 99
 
+  // Orders by system, then by number.
   auto operator<=>(const Satellite&) const = default;
   // Returns the satellite's index in tables, which is unique and below satellite_slots.
   std::size_t slot() const { return static_cast<std::size_t>(system) * 100 + number; }
 };
-inline constexpr std::size_t satellite_slots = system_count * 100;
+inline constexpr std::size_t satellite_slots = system_count * 100;  // size of a table by slot()
 
 template <class Archive>
 void archive(Archive& ar, Satellite& s) {
@@ -43,6 +47,7 @@ void archive(Archive& ar, Satellite& s) {
 
 // Parses "G05". As in old files, a blank letter stands for GPS and a blank tens digit for zero.
 std::optional<Satellite> parse_satellite(std::string_view text);
+// Formats as "G05".
 std::string to_string(Satellite satellite);
 
 // Returns the bands of a system's ionosphere-free pair, which its precise products refer to.

@@ -12,32 +12,34 @@ namespace maploop::fusion {
 enum class InertialAxes : std::uint8_t {
   automatic,  // six where neither odometry nor wheels measure the speed, else three
   three,      // the reduced unit: forward and left force, yaw rate
-  six,
+  six,        // the full unit: upward force, roll and pitch rate as well
 };
 
 constexpr auto names_of(InertialAxes) {
   return names_up_to<InertialAxes::six>({"auto", "three", "six"});
 }
 
+// Holds the parameters of ReducedImuFilter, whose constructor checks them. The gates bound the
+// normalized innovation squared.
 struct FusionParameters {
   // Which measurements correct the state. A named configuration (configuration.h) sets these.
-  bool use_gnss = false;
-  bool use_odometry_speed = true;
-  bool use_odometry_azimuth = true;
-  bool chain_odometry_azimuth = false;
-  bool use_wheel_speed = false;
-  bool use_zero_velocity = true;
-  bool still_by_inertia = false;
-  bool speed_from_turns = false;
-  InertialAxes inertial_axes = InertialAxes::automatic;
+  bool use_gnss = false;                // fixes, after the start, which always takes one
+  bool use_odometry_speed = true;       // forward speed of odometry
+  bool use_odometry_azimuth = true;     // rotation of odometry over each interval
+  bool chain_odometry_azimuth = false;  // rotations added up to an azimuth of their own
+  bool use_wheel_speed = false;         // speed of the wheels
+  bool use_zero_velocity = true;        // zero velocity while the vehicle stands still
+  bool still_by_inertia = false;        // quiet inertial samples alone show a standstill
+  bool speed_from_turns = false;        // centripetal force of a turn corrects the speed
+  InertialAxes inertial_axes = InertialAxes::automatic;  // used where a sample has six
 
   // History and time.
-  double history_length = 3.0;  // s
-  int history_capacity = 512;
-  double confirm_gap = 1.0;       // s
-  double max_gap = 5.0;           // s
-  double max_stamp_ahead = 0.05;  // s
-  int restart_after = 100;
+  double history_length = 3.0;        // s, age up to which late data is applied
+  int history_capacity = 512;         // events at most
+  double confirm_gap = 1.0;           // s
+  double max_gap = 5.0;               // s
+  double max_stamp_ahead = 0.05;      // s
+  int restart_after = 100;            // refusals of stamps in a row; the clock has jumped
   double max_step = 0.05;             // s
   double imu_hold = 0.3;              // s
   double repeat_speed = 2.0;          // m/s
@@ -47,7 +49,7 @@ struct FusionParameters {
   double max_origin_distance = 50e3;  // m
 
   // Start, from one GNSS fix.
-  double min_course_speed = 2.0;       // m/s
+  double min_course_speed = 2.0;       // m/s, from which a course starts the azimuth
   double max_stamp_offset = 0.2;       // s
   double min_position_sigma = 0.1;     // m
   double min_velocity_sigma = 0.03;    // m/s
@@ -57,11 +59,11 @@ struct FusionParameters {
   double start_acceleration = 3.0;     // m/s^2
 
   // Inertial sensors.
-  double gyro_noise = 8.7e-5;           // rad/sqrt(s) (0.3 deg/sqrt(h))
-  double gyro_turn_on_sigma = 1.75e-4;  // rad/s (36 deg/h)
-  double gyro_bias_sigma = 4.8e-5;      // rad/s (10 deg/h)
-  double gyro_bias_time = 300.0;        // s
-  double gyro_scale_sigma = 0.003;
+  double gyro_noise = 8.7e-5;                 // rad/sqrt(s) (0.3 deg/sqrt(h)), angle random walk
+  double gyro_turn_on_sigma = 1.75e-4;        // rad/s (36 deg/h)
+  double gyro_bias_sigma = 4.8e-5;            // rad/s (10 deg/h)
+  double gyro_bias_time = 300.0;              // s
+  double gyro_scale_sigma = 0.003;            // share of the yaw rate; scale and cross-axis errors
   double turn_time = 3.0;                     // s
   double acceleration_noise = 0.3;            // m/s/sqrt(s)
   double accelerometer_turn_on_sigma = 0.05;  // m/s^2 (0.3 deg of tilt)
@@ -75,7 +77,7 @@ struct FusionParameters {
   double max_yaw_rate = 6.0;                  // rad/s (350 deg/s)
 
   // Vehicle.
-  double pitch_noise = 0.0175;           // rad/sqrt(s) (1 deg)
+  double pitch_noise = 0.0175;           // rad/sqrt(s) (1 deg), road and suspension
   double roll_noise = 0.0175;            // rad/sqrt(s) (1 deg)
   double rear_axle_distance = 0.0;       // m
   double rear_slip = 0.005;              // rad/(m/s^2), 2.8 deg at 1 g
@@ -94,24 +96,24 @@ struct FusionParameters {
   double max_tilt = 0.8;                 // rad
 
   // A unit of six axes.
-  double tilt_rate_noise = 1e-4;              // rad/sqrt(s) (0.3 deg/sqrt(h))
+  double tilt_rate_noise = 1e-4;              // rad/sqrt(s) (0.3 deg/sqrt(h)), of pitch and roll
   double levelled_acceleration_noise = 0.03;  // m/s/sqrt(s)
   double levelled_tilt_sigma = 0.015;         // rad (0.9 deg)
-  double cross_axis_sigma = 0.002;
+  double cross_axis_sigma = 0.002;  // share of the yaw rate in the gyros of roll and pitch
   double unit_course_sigma = 0.02;  // rad (1 deg)
 
   // Levelling by the accelerometers.
-  double tilt_sigma = 0.0175;             // rad (1 deg)
+  double tilt_sigma = 0.0175;             // rad (1 deg), of the roll seen in one sample
   double tilt_time = 3.0;                 // s
   double max_acceleration = 3.0;          // m/s^2
   double max_lateral_acceleration = 4.0;  // m/s^2
 
   // GNSS.
-  double gnss_correlated = 0.7;
-  double gnss_offset_time = 30.0;  // s
-  double gnss_position_gate = 16.27;
-  double gnss_velocity_gate = 16.27;
-  int gnss_recover_after = 5;
+  double gnss_correlated = 0.7;             // share of a fix's variance that lasts
+  double gnss_offset_time = 30.0;           // s
+  double gnss_position_gate = 16.27;        // chi-square, 3 degrees of freedom
+  double gnss_velocity_gate = 16.27;        // chi-square, 3 degrees of freedom
+  int gnss_recover_after = 5;               // gated fixes in a row; twice as many start anew
   double gnss_recovery_sigma = 20.0;        // m
   double gnss_recovery_course_sigma = 0.3;  // rad
   double fix_hold = 3.0;                    // s
@@ -121,33 +123,33 @@ struct FusionParameters {
   double gnss_lever_sigma = 0.2;            // m
 
   // Lasting contradictions (contradiction.h): for HEALTH, and for the weight of fixes.
-  double doubt_memory = 10.0;  // s
-  double doubt_gate = 25.0;
-  double doubt_motion_gate = 15.0;
-  double doubt_scatter = 3.0;
+  double doubt_memory = 10.0;       // s, over which contradictions are looked for
+  double doubt_gate = 25.0;         // mean error of fixes or wheels, as chi-square
+  double doubt_motion_gate = 15.0;  // the same of odometry's lengths and turns
+  double doubt_scatter = 3.0;       // mean square of an aid's innovations to their variance
 
   // Map feedback.
-  double map_position_gate = 10.83;
-  double map_azimuth_gate = 6.63;
-  int map_recover_after = 5;
+  double map_position_gate = 10.83;  // across the road; chi-square, 1 degree of freedom
+  double map_azimuth_gate = 6.63;    // chi-square, 1 degree of freedom
+  int map_recover_after = 5;         // gated lines in a row, over 50 m
   double map_recovery_sigma = 10.0;  // m
   double lane_length = 300.0;        // m
-  double lane_lasting = 0.3;
+  double lane_lasting = 0.3;         // share of the lane's error that persists after a turn
 
   // Scale of the speed sensor.
-  double speed_scale_sigma = 0.015;
-  double speed_scale_walk = 0.001;  // 1/sqrt(s)
+  double speed_scale_sigma = 0.015;  // of the scale at the start
+  double speed_scale_walk = 0.001;   // 1/sqrt(s)
 
   // Lasting errors of a LiDAR.
-  double lidar_scale_sigma = 0.002;
+  double lidar_scale_sigma = 0.002;  // of the range scale
   double lidar_turn_sigma = 3.5e-5;  // rad/m (0.2 deg in 100 m)
   double lidar_error_time = 300.0;   // s
 
   // Wheels.
-  double min_wheel_sigma = 0.02;  // m/s
+  double min_wheel_sigma = 0.02;  // m/s, least one of the speed: slip
 
   // Standing still.
-  double still_force = 0.05;          // m/s^2
+  double still_force = 0.05;          // m/s^2, sigma over a second below which it stands
   double still_rate = 0.0052;         // rad/s (0.3 deg/s)
   double still_speed = 0.1;           // m/s
   double quiet_force = 0.08;          // m/s^2
@@ -156,17 +158,18 @@ struct FusionParameters {
   double zero_rate_sigma = 1.7e-4;    // rad/s (0.01 deg/s)
 
   // Odometry.
-  double min_speed_sigma = 0.05;       // m/s
-  double min_rotation_sigma = 5.2e-4;  // rad (0.03 deg)
-  double speed_gate = 10.83;
-  double sideways_gate = 13.82;
-  double rotation_gate = 16.27;
+  double min_speed_sigma = 0.05;          // m/s, least one of the speed of odometry
+  double min_rotation_sigma = 5.2e-4;     // rad (0.03 deg)
+  double speed_gate = 10.83;              // of odometry and wheels; chi-square, 1 degree of freedom
+  double sideways_gate = 13.82;           // across and up; chi-square, 2 degrees of freedom
+  double rotation_gate = 16.27;           // chi-square, 3 degrees of freedom
   double chained_azimuth_sigma = 0.0035;  // rad (0.2 deg)
   double chain_drift = 8.7e-5;            // rad/sqrt(m) (0.005 deg)
-  int recover_after = 10;
+  int recover_after = 10;                 // gated motions in a row, over 1 s
   double recovery_speed_sigma = 5.0;      // m/s
   double recovery_rotation_sigma = 0.05;  // rad (3 deg)
 
+  // Returns whether the filter uses six axes, of samples that have them.
   bool uses_six_axes() const {
     const bool no_speed_sensor = !use_odometry_speed && !use_wheel_speed;
     return inertial_axes == InertialAxes::six ||

@@ -11,9 +11,9 @@ namespace maploop::fusion {
 // Holds values of the vehicle from another source, such as a surveyed place or the end of the last
 // drive.
 struct KnownStart {
-  Time stamp{};
-  Geodetic position;
-  Attitude attitude;
+  Time stamp{};                                                     // of all values
+  Geodetic position;                                                // of the body's origin
+  Attitude attitude;                                                // of the body
   double speed = 0.0;                                               // m/s, negative in reverse
   Eigen::Vector3d position_sigma = Eigen::Vector3d::Constant(0.1);  // m, east, north, up
   double azimuth_sigma = 0.0017;                                    // rad (0.1 deg)
@@ -21,13 +21,15 @@ struct KnownStart {
   double speed_sigma = 0.05;                                        // m/s
   // If the position comes from fixes: the lasting part of their error (o of METHOD.md), and how it
   // correlates with the position of the same axis, from -1 to 1.
-  Eigen::Vector3d fix_offset = Eigen::Vector3d::Zero();
-  Eigen::Vector3d fix_offset_sigma = Eigen::Vector3d::Ones();
-  Eigen::Vector3d fix_offset_correlation = Eigen::Vector3d::Zero();
+  Eigen::Vector3d fix_offset = Eigen::Vector3d::Zero();              // o, east, north, up
+  Eigen::Vector3d fix_offset_sigma = Eigen::Vector3d::Ones();        // of o; 1: o is not known
+  Eigen::Vector3d fix_offset_correlation = Eigen::Vector3d::Zero();  // -1 to 1
 };
 
 // Returns Reason::none, out_of_range or not_finite.
 Reason check_start(const KnownStart& known);
+// Returns the state at known.stamp, with errors of sensors as the parameters give them. Does not
+// check the values (check_start).
 FilterState initial_state(const KnownStart& known, const LocalFrame& frame,
                           const FusionParameters& parameters);
 

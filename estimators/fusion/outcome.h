@@ -7,16 +7,18 @@
 
 namespace maploop::fusion {
 
+// States what the filter does with a measurement.
 enum class Disposition : std::uint8_t {
-  applied,
+  applied,  // used by the filter
   held,     // kept until the filter starts, then applied
   refused,  // `reason` states why
 };
 
+// States why a measurement is refused.
 enum class Reason : std::uint8_t {
-  none,
+  none,  // not refused
   // These refuse a measurement on arrival; it is discarded.
-  not_finite,
+  not_finite,          // a value is infinite or not a number
   out_of_range,        // beyond what the sensor or a road vehicle can do
   invalid_covariance,  // not symmetric, or a negative variance
   bad_interval,        // odometry over an empty, reversed or too long interval
@@ -25,7 +27,7 @@ enum class Reason : std::uint8_t {
   before_start,        // before the time at which the filter started
   after_delivery,      // stamped later than delivered: the sensor's clock is wrong
   clock_fell_back,     // the sensor's clock went back and is not right again yet
-  frozen,              // bit for bit equal for too long while moving: the sensor is stuck
+  frozen,              // stuck: bit for bit equal for too long while moving (refused at its stamp)
   time_jump,           // too far ahead of all others, or not confirmed by a second stamp
   // These refuse odometry at its stamp: it does not correct, but the next interval starts there.
   odometry_not_ok,   // its own status reports a failure (bad input: refused on arrival)
@@ -34,14 +36,14 @@ enum class Reason : std::uint8_t {
   rotation_gate,     // rotation contradicts the prediction
   implausible_tilt,  // the correction would tilt the vehicle too far
   wheel_gate,        // the wheels' speed contradicts the prediction
-  not_configured,    // the configuration does not use this sensor
+  not_configured,    // the configuration does not use this sensor (refused on arrival)
   // These refuse GNSS fixes.
-  position_gate,    // position contradicts the prediction
-  velocity_gate,    // velocity contradicts the prediction
-  already_started,  // the configuration uses fixes only to start
-  too_slow,         // a slow fix has no course; the filter waits for a moving one
-  stamps_apart,     // position and velocity are too far apart in time
-  too_far_from_origin,
+  position_gate,        // position contradicts the prediction
+  velocity_gate,        // velocity contradicts the prediction
+  already_started,      // the configuration uses fixes only to start
+  too_slow,             // a slow fix has no course; the filter waits for a moving one
+  stamps_apart,         // position and velocity are too far apart in time
+  too_far_from_origin,  // a start farther away than max_origin_distance
   // These refuse map feedback.
   nothing_fed_back,   // the feedback itself contains the reason
   map_not_trusted,    // the map misled the filter shortly before
@@ -49,14 +51,16 @@ enum class Reason : std::uint8_t {
   link_azimuth_gate,  // the road's azimuth contradicts the prediction
 };
 
+// Number of reasons, with `none`; the size of counters by Reason.
 constexpr std::size_t reason_count = static_cast<std::size_t>(Reason::link_azimuth_gate) + 1;
 
+// States what became of a measurement.
 struct Outcome {
-  Disposition disposition = Disposition::applied;
-  Reason reason = Reason::none;
+  Disposition disposition = Disposition::applied;  // what the filter does with the measurement
+  Reason reason = Reason::none;                    // why it is refused
 
-  bool refused() const { return disposition == Disposition::refused; }
-  bool operator==(const Outcome&) const = default;
+  bool refused() const { return disposition == Disposition::refused; }  // whether it is not used
+  bool operator==(const Outcome&) const = default;  // same disposition and reason
 };
 
 template <class Archive>
@@ -64,10 +68,12 @@ void archive(Archive& ar, Outcome& o) {
   ar(o.disposition, o.reason);
 }
 
+// Returns the outcome of a measurement that is refused for `reason`.
 constexpr Outcome refused(Reason reason) {
   return {Disposition::refused, reason};
 }
 
+// Returns a phrase for reports. It is a literal, so its data() ends with a null.
 constexpr std::string_view to_string(Disposition disposition) {
   switch (disposition) {
     case Disposition::applied:
@@ -80,6 +86,7 @@ constexpr std::string_view to_string(Disposition disposition) {
   return "unknown";
 }
 
+// The same of a reason.
 constexpr std::string_view to_string(Reason reason) {
   switch (reason) {
     case Reason::none:

@@ -29,14 +29,16 @@ class ArchiveWriter;
 
 namespace maploop::fusion {
 
+// Says how far a filter has come.
 enum class Phase : std::uint8_t {
   waiting_for_fix,     // no usable GNSS fix has arrived yet
   waiting_for_motion,  // the last fix was too slow to define a course
-  running,
+  running,             // the filter has started
 };
 
+// Says how far the filter has come, and counts what it has done.
 struct FilterStatus {
-  Phase phase = Phase::waiting_for_fix;
+  Phase phase = Phase::waiting_for_fix;  // what the filter waits for, if it has not started
   std::uint64_t recoveries = 0;  // covariance inflations after consecutive gated measurements
   std::uint64_t reinitializations = 0;  // restarts from a fix after consecutive gated fixes
   std::uint64_t restarts = 0;           // restarts after a jump of the data's clock
@@ -45,11 +47,12 @@ struct FilterStatus {
   std::uint64_t unused = 0;             // held measurements that became too old before the start
   // These count all added measurements by their outcome on arrival. (A later arrival may change
   // what the filter does with a measurement; NavState counts those that a state includes.)
-  std::uint64_t applied = 0;
-  std::uint64_t held = 0;
-  PlaceUse place = PlaceUse::none;
+  std::uint64_t applied = 0;                          // on arrival
+  std::uint64_t held = 0;                             // on arrival, as the filter had not started
+  PlaceUse place = PlaceUse::none;                    // what was done with the last place (recall)
   std::array<std::uint64_t, reason_count> refused{};  // by Reason
 
+  // Returns how many measurements were refused on arrival for `reason`.
   std::uint64_t refused_for(Reason reason) const {
     return refused[static_cast<std::size_t>(reason)];
   }
@@ -81,12 +84,18 @@ class ReducedImuFilter {
   explicit ReducedImuFilter(const FusionParameters& parameters,
                             std::optional<Geodetic> origin = std::nullopt);
 
+  // Each add() returns what became of its measurement on arrival. Until the filter has started, all
+  // but fixes are held. An inertial sample moves the state on; the others correct it.
   Outcome add(const ImuSample& sample);
+  // Corrects by the body's motion from `from` to `stamp`, if the configuration uses odometry.
   Outcome add(const RelativeMotion& motion);
+  // Corrects by the speed of the wheels, if `use_wheel_speed`.
   Outcome add(const WheelSpeed& sample);
   // The first usable fix starts the filter. With `use_gnss`, later fixes correct it: position and
   // velocity each at its own stamp (the outcome is the position's).
   Outcome add(const GnssFix& fix);
+  // Corrects by the line and the azimuth of the road, as far as they are fed back; a reset sets
+  // them.
   Outcome add(const MapFeedback& feedback);
 
   // Uses what an earlier drive has estimated of the car, from the next start on.
@@ -96,19 +105,22 @@ class ReducedImuFilter {
   // forgets it at once, and starts from a fix as without it (PlaceUse::moved).
   void recall(const LastPlace& place);
 
-  // Starts the filter from given values.
+  // Starts the filter from given values. Refused if they are not valid, or already_started.
   Outcome start(const KnownStart& known);
 
-  bool initialized() const { return initialized_; }
+  bool initialized() const { return initialized_; }  // whether it has started
   // Returns the frame of the enu coordinates. Before the start without a given origin, it is the
   // default frame.
   const LocalFrame& frame() const { return frame_; }
+  // Returns the phase and the counters by now.
   FilterStatus status() const;
-  PlaceUse place() const { return status_.place; }
+  PlaceUse place() const { return status_.place; }  // as in status()
   // Returns where the vehicle is by the newest measurement, for the next run; nothing before the
   // start.
   std::optional<LastPlace> here() const;
+  // Returns the lasting contradictions of each aid by the newest measurement (contradiction.h).
   const Contradictions& contradictions() const { return newest_state().contradictions; }
+  // Returns the parameters of the constructor.
   const FusionParameters& parameters() const { return parameters_; }
   // Returns what the filter has estimated of the vehicle; each sigma is 0 before the start.
   SelfCalibrations calibration() const;

@@ -14,17 +14,20 @@ namespace maploop::fusion {
 // This is one estimated property. It is observed once the measurements have halved its uncertainty;
 // before, the motion has not excited it, and the value is mostly what was given.
 struct CalibratedProperty {
-  std::string_view key;  // its name in files
-  std::string_view name;
-  std::string_view unit;
-  double value = 0.0;
-  double sigma = 0.0;
-  double sigma_at_start = 0.0;
+  std::string_view key;         // its name in files
+  std::string_view name;        // what it is, in words
+  std::string_view unit;        // of the numbers below, such as "deg" or "%"
+  double value = 0.0;           // estimated by now
+  double sigma = 0.0;           // standard deviation by now
+  double sigma_at_start = 0.0;  // standard deviation before any measurement
 
+  // Returns whether the measurements have halved the uncertainty; false before the start.
   bool observed() const { return sigma > 0.0 && sigma < 0.5 * sigma_at_start; }
 };
 
+// Number of estimated properties.
 inline constexpr std::size_t calibrated_count = 18;
+// Holds all properties, always in the same order.
 using SelfCalibrations = std::array<CalibratedProperty, calibrated_count>;
 
 // `sigmas_at_start` are those of the states before any measurement, as they were given.
@@ -33,9 +36,9 @@ SelfCalibrations self_calibrations(const FilterState& state, const StateVector& 
 // Holds what an earlier drive of the same car has estimated, in the order and the units of
 // SelfCalibrations. A sigma of 0 means that the property is not known.
 struct RememberedCalibration {
-  Time at{};  // when it was estimated
-  std::array<double, calibrated_count> value{};
-  std::array<double, calibrated_count> sigma{};
+  Time at{};                                     // when it was estimated
+  std::array<double, calibrated_count> value{};  // each in its unit
+  std::array<double, calibrated_count> sigma{};  // each in its unit; 0: not known
 };
 
 template <class Archive>

@@ -19,6 +19,7 @@ class ArchiveWriter;
 
 namespace maploop::lidar {
 
+// Holds the motions that one step results in.
 struct OdometerResult {
   LidarMotion lidar;        // from the scan, if there is one
   RelativeMotion odometry;  // LiDAR if that is ok, else visual

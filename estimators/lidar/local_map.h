@@ -29,11 +29,14 @@ struct Partner {
 // writes.
 class LocalMap {
  public:
+  // Makes an empty map by the parameters named map_... and reserves the memory of all its voxels.
   explicit LocalMap(const LidarParameters& parameters);
 
+  // Removes all points and keeps the memory.
   void clear();
-  bool empty() const { return voxels_.empty(); }
-  std::size_t size() const { return points_; }
+  bool empty() const { return voxels_.empty(); }  // whether it has no points
+  std::size_t size() const { return points_; }    // number of points
+  // Returns a copy of all points, in the map's frame and axes; for displays.
   std::vector<SurfacePoint> points() const;
 
   // Adds points that have a normal and are at least map_spacing from those in their voxel, up to

@@ -23,6 +23,7 @@ class VisualLidarOdometer {
   VisualLidarOdometer(const Eigen::Isometry3d& T_body_velo, const LidarParameters& parameters)
       : VisualLidarOdometer(LidarOdometry(T_body_velo, parameters),
                             DisparityCorrection(parameters)) {}
+  // Joins an odometry, such as one that runs on several threads, and a correction.
   VisualLidarOdometer(LidarOdometry odometry, const DisparityCorrection& correction)
       : odometry_(std::move(odometry)), correction_(correction) {}
 
@@ -35,7 +36,9 @@ class VisualLidarOdometer {
   // The same for points that the caller keeps.
   OdometerResult process(const std::optional<ScanView>& scan, const VisualMotion* visual);
 
+  // Returns the LiDAR odometry, with its map and last scan; for displays.
   const LidarOdometry& odometry() const { return odometry_; }
+  // Returns the correction, with what it has learned so far.
   const DisparityCorrection& correction() const { return correction_; }
 
   std::size_t largest_archive() const { return odometry_.largest_archive() + 64; }  // bytes

@@ -10,6 +10,7 @@ namespace maploop::stereo {
 // Refers to 8-bit grey pixels in rows without padding, which must outlive the view.
 struct ImageView {
   ImageView() = default;
+  // Views columns * rows pixels, row by row; `first` is the top left one.
   ImageView(int columns, int rows, const std::uint8_t* first)
       : width(columns), height(rows), pixels(first) {}
   // An image that does not have the pixels of its size gives an empty view.
@@ -20,9 +21,9 @@ struct ImageView {
     *this = ImageView(image.width, image.height, image.pixels.data());
   }
 
-  int width = 0;   // px
-  int height = 0;  // px
-  const std::uint8_t* pixels = nullptr;
+  int width = 0;                         // px
+  int height = 0;                        // px
+  const std::uint8_t* pixels = nullptr;  // the top left one first, row by row; nullptr: empty view
 };
 
 }  // namespace maploop::stereo

@@ -7,11 +7,13 @@
 
 namespace maploop::stereo {
 
+// Selects how features are found again in other images.
 enum class Matching : std::uint8_t {
   klt,   // corners followed by Lucas-Kanade (klt_front_end.h)
   sift,  // matched descriptors (sift_front_end.h)
 };
 
+// Selects how a motion is estimated from the matched features.
 enum class MotionMethod : std::uint8_t {
   points_to_image,   // 3D-to-2D: P3P, then both images (ransac.h, refine.h)
   points_to_points,  // 3D-to-3D: closed form, then the points' own covariances (point_alignment.h)

@@ -33,7 +33,9 @@ class StereoOdometry {
   // valid.
   StereoOdometry(const StereoCalibration& calibration, const StereoParameters& parameters);
   ~StereoOdometry();
+  // Moves all state. Afterwards the source may only be assigned to or destroyed.
   StereoOdometry(StereoOdometry&&) noexcept;
+  // The same.
   StereoOdometry& operator=(StereoOdometry&&) noexcept;
 
   // Returns the motion of the body from the newest usable pair before this one (`from`) to this

@@ -22,6 +22,8 @@
 
 namespace maploop::ppp {
 
+// A PppFilter estimates the position of one receiver. A copy goes on independently from the same
+// state.
 class PppFilter {
  public:
   // `heights` must outlive the filter; nullptr: the height of the ground is not known.
@@ -40,8 +42,9 @@ class PppFilter {
   // Takes from the road that is matched whether it is on the ground. The next epochs' heights of
   // the ground are not used if it is not.
   void note_road(const MapFeedback& feedback);
-  // Both are of the last epoch; the covariance is that of the position, east and north, m^2.
+  // Returns the solution of the last epoch.
   const PppSolution& solution() const { return solution_; }
+  // Returns the covariance of that solution's position, east and north, m^2.
   Eigen::Matrix2d level_covariance() const;
 
   // Forgets everything except what is the receiver's own: its signal strengths and its clock steps.
