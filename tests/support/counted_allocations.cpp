@@ -2,11 +2,13 @@
 
 #include <dlfcn.h>
 #include <execinfo.h>
+#include <malloc.h>
 #include <pthread.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -63,6 +65,7 @@ struct Watched {
 std::array<Watched, most_threads> threads;
 std::atomic<std::size_t> threads_used{0};
 std::atomic<bool> watching{false};
+std::atomic<long> bytes_held{0};
 constinit thread_local long allocations = 0;
 constinit thread_local Watched* own = nullptr;
 constinit thread_local bool noting = false;
@@ -82,6 +85,11 @@ constinit thread_local bool noting = false;
   noting = false;
 }
 
+[[maybe_unused]] void* held(void* memory) {
+  bytes_held.fetch_add(static_cast<long>(malloc_usable_size(memory)), std::memory_order_relaxed);
+  return memory;
+}
+
 }  // namespace
 
 #if MAPLOOP_COUNTS_ALLOCATIONS
@@ -92,23 +100,36 @@ void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* memory, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+void __libc_free(void* memory);
 // NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 void* malloc(std::size_t size) {
   count_one();
-  return __libc_malloc(size);
+  return held(__libc_malloc(size));
 }
 void* calloc(std::size_t count, std::size_t size) {
   count_one();
-  return __libc_calloc(count, size);
+  return held(__libc_calloc(count, size));
 }
 void* realloc(void* memory, std::size_t size) {
   count_one();
-  return __libc_realloc(memory, size);
+  const auto before = static_cast<long>(malloc_usable_size(memory));
+  void* const now = __libc_realloc(memory, size);
+  if (now != nullptr || size == 0) bytes_held.fetch_sub(before, std::memory_order_relaxed);
+  return held(now);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
   count_one();
-  return __libc_memalign(alignment, size);
+  return held(__libc_memalign(alignment, size));
+}
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+  count_one();
+  *memory = held(__libc_memalign(alignment, size));
+  return *memory != nullptr ? 0 : ENOMEM;
+}
+void free(void* memory) {
+  bytes_held.fetch_sub(static_cast<long>(malloc_usable_size(memory)), std::memory_order_relaxed);
+  __libc_free(memory);
 }
 }
 #endif
@@ -154,6 +175,10 @@ bool counts_allocations() {
 
 long thread_allocations() {
   return allocations;
+}
+
+long held_bytes() {
+  return bytes_held.load();
 }
 
 void watch_allocations() {

@@ -13,6 +13,9 @@ bool counts_allocations();
 // Returns the number of allocations of the calling thread since it started.
 long thread_allocations();
 
+// Returns the bytes that all threads have allocated and not freed.
+long held_bytes();
+
 // Between the two calls, each allocation of any thread is counted with the functions that led to
 // it, which slows the allocating thread. Threads may start and end meanwhile.
 void watch_allocations();

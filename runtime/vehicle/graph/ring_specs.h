@@ -140,6 +140,9 @@ inline constexpr RingSpec<RuntimeReport> health_publisher{stages::health, publis
 // apart, and a saved state has megabytes.
 inline constexpr std::size_t snapshot_capacity = 1;
 
+// Images and scans that a replay decodes ahead: longer than a hiccup of the disk.
+inline constexpr std::size_t decoded_ahead = 6;
+
 // In this order consumers take samples that become available at the same time.
 inline constexpr auto all = std::tie(
     camera_stereo, velodyne_lidar, stereo_lidar, imu_fusion, gnss_fusion, gnss_ppp, corrections_ppp,

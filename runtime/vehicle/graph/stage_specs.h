@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 #include "msgs/time.h"
@@ -11,6 +12,12 @@
 namespace maploop::vehicle {
 
 using std::chrono::milliseconds;
+
+// How many bytes a stage's estimator holds at most, apart from its thread's stack.
+struct WorkingMemory {
+  std::size_t fixed = 0;
+  std::size_t per_pixel = 0;  // of one image of a pair
+};
 
 // One thread. Rates, periods and budgets are of data time; the deadline is of the machine's clock.
 struct StageSpec {
@@ -25,12 +32,13 @@ struct StageSpec {
   // A stage with two inputs holds a sample of one this long (from the sample's `available`) for the
   // matching sample of the other; then it processes the sample without a match.
   Duration patience{};
-  Duration budget{};                   // the result becomes available this long after the release
-  Duration deadline{};                 // from release to result; 0: none
-  double min_rate = 0.0;               // Hz; HEALTH reports a lower rate; 0: not watched
-  double max_rate = 0.0;               // Hz; HEALTH reports a higher rate
-  bool expected = false;               // a sensor that reports list even if the vehicle lacks it
-  bool saved = false;                  // a part of snapshots
+  Duration budget{};      // the result becomes available this long after the release
+  Duration deadline{};    // from release to result; 0: none
+  double min_rate = 0.0;  // Hz; HEALTH reports a lower rate; 0: not watched
+  double max_rate = 0.0;  // Hz; HEALTH reports a higher rate
+  bool expected = false;  // a sensor that reports list even if the vehicle lacks it
+  bool saved = false;     // a part of snapshots
+  WorkingMemory memory{};
   std::string_view scheduled_as = {};  // its key of [scheduling], if that is not its name
   bool polls = false;  // looks into its rings now and then: no producer pays for waking it
 };
@@ -80,7 +88,8 @@ inline constexpr StageSpec stereo{.name = "stereo",
                                   .deadline = milliseconds(50),
                                   .min_rate = 5.0,
                                   .max_rate = 40.0,
-                                  .saved = true};
+                                  .saved = true,
+                                  .memory = {.per_pixel = 40}};
 inline constexpr StageSpec lidar{.name = "lidar",
                                  .runs = "visual-LiDAR odometry",
                                  .released = "scan and its visual motion",
@@ -91,7 +100,8 @@ inline constexpr StageSpec lidar{.name = "lidar",
                                  .deadline = milliseconds(60),
                                  .min_rate = 5.0,
                                  .max_rate = 40.0,
-                                 .saved = true};
+                                 .saved = true,
+                                 .memory = {.fixed = 32'000'000}};
 inline constexpr StageSpec ppp{.name = "ppp",
                                .runs = "precise point positioning",
                                .released = "GNSS epoch",
@@ -99,7 +109,8 @@ inline constexpr StageSpec ppp{.name = "ppp",
                                .deadline = milliseconds(10),
                                .min_rate = 0.5,
                                .max_rate = 21.0,
-                               .saved = true};
+                               .saved = true,
+                               .memory = {.fixed = 3'000'000}};
 inline constexpr StageSpec fusion{.name = "fusion",
                                   .runs = "reduced-IMU filter",
                                   .released = "its period",
@@ -109,7 +120,9 @@ inline constexpr StageSpec fusion{.name = "fusion",
                                   .deadline = milliseconds(2),
                                   .min_rate = 95.0,
                                   .max_rate = 105.0,
-                                  .saved = true};
+                                  .saved = true,
+                                  // Three filters, once the map feeds back.
+                                  .memory = {.fixed = 24'000'000}};
 inline constexpr StageSpec mapmatch{
     .name = "mapmatch",
     .runs = "map matching",
@@ -121,7 +134,8 @@ inline constexpr StageSpec mapmatch{
     .deadline = milliseconds(2),
     .min_rate = 9.5,
     .max_rate = 10.5,
-    .saved = true};
+    .saved = true,
+    .memory = {.fixed = 60'000}};
 inline constexpr StageSpec publisher{
     .name = "publisher", .runs = "LCM, log", .released = "polls", .polls = true};
 inline constexpr StageSpec health{.name = "health",

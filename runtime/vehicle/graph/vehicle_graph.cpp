@@ -20,9 +20,6 @@
 namespace maploop::vehicle {
 namespace {
 
-// Samples decoded ahead: longer than a hiccup of the disk.
-constexpr std::size_t decoded_ahead = 6;
-
 // A drive with GNSS alone uses it after the start too: nothing else gives it a position.
 VehicleConfig adapt_to_sensors(VehicleConfig config, const VehicleCalibration& calibration,
                                const Sensors& sensors) {
@@ -169,7 +166,7 @@ std::unique_ptr<sensors::Source<T>> Vehicle::Graph::prefetched(
   const bool shared = how.policy != runtime::SchedulingPolicy::deadline;
   return std::make_unique<PrefetchedSource<T>>(
       name, clock.is_paced() && shared ? how : runtime::Scheduling{}, std::move(source),
-      decoded_ahead, stop.get_token(), trace_buffer(name));
+      rings::decoded_ahead, stop.get_token(), trace_buffer(name));
 }
 
 template <class T>

@@ -55,6 +55,24 @@ TEST(DoctorCommand, AsksForWhatTheConfigurationSays) {
   EXPECT_FALSE(settings.contains("locked memory"));
 }
 
+TEST(DoctorCommand, SaysHowMuchMemoryThreadsAndRingsHoldForImagesOfTheDescribedCamera) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "doctor.json").string();
+  const ProcessResult result = run({maploop_command(), "doctor", "--json", file, "--set",
+                                    "vehicle.camera.width=1000", "vehicle.camera.height=500"});
+  ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_NE(result.out.find("images of 500000 pixels"), std::string::npos);
+  const json memory = read_json(file)["memory"];
+  double bytes = 0.0;
+  bool ring = false;
+  for (const json& part : memory["parts"]) {
+    bytes += part["bytes"].get<double>();
+    ring = ring || (part["name"] == "camera -> stereo" && part["bytes"] >= 4 * 1'000'000);
+  }
+  EXPECT_TRUE(ring) << memory;
+  EXPECT_NEAR(memory["megabytes"], bytes / 1e6, 0.01);
+}
+
 TEST(DoctorCommand, SaysWhatIsRefusedWhyAndWhatToDo) {
   if (!can_drop_capabilities()) GTEST_SKIP() << "setpriv cannot drop capabilities here";
   const json settings = settings_of(without_capabilities({maploop_command(), "doctor"}));
