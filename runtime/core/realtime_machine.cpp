@@ -7,6 +7,7 @@
 #include <numeric>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 #include "runtime/core/realtime_text.h"
 
@@ -124,6 +125,55 @@ RealtimeSetting assess_isolation(const MachineText& machine) {
                            : cpus.granted(text);
 }
 
+RealtimeSetting assess_clock(const MachineText& machine) {
+  // All others are read by a system call, or from a device.
+  constexpr std::array fast{"tsc", "arch_sys_counter", "kvm-clock", "hyperv_clocksource_tsc_page"};
+  constexpr const char* remedy_text =
+      "see why the kernel has left the processor's counter (dmesg | grep -i clocksource)";
+  const RealtimeRequest clock{"clock", "the processor's counter"};
+  if (!machine.clock_source) {
+    return clock.unknown("/sys/devices/system/clocksource is not readable", remedy_text);
+  }
+  if (std::find(fast.begin(), fast.end(), *machine.clock_source) != fast.end())
+    return clock.granted(*machine.clock_source);
+  return clock.limiting(*machine.clock_source,
+                        "each reading of the time takes a microsecond or more", remedy_text);
+}
+
+// The file names all choices, with the one in force in brackets.
+RealtimeSetting assess_huge_pages(const MachineText& machine) {
+  constexpr const char* remedy_text =
+      "as root: echo madvise > /sys/kernel/mm/transparent_hugepage/enabled";
+  const RealtimeRequest pages{"huge pages", "madvise or never"};
+  const std::string_view text = view(machine.huge_pages);
+  const std::size_t open = text.find('['), close = text.find(']');
+  if (open == std::string_view::npos || close == std::string_view::npos || close < open) {
+    return pages.unknown("the kernel has none, or /sys/kernel/mm is not readable", remedy_text);
+  }
+  const std::string choice(text.substr(open + 1, close - open - 1));
+  if (choice != "always") return pages.granted(choice);
+  return pages.limiting(
+      choice, "the kernel joins pages in the background, and who touches them waits", remedy_text);
+}
+
+RealtimeSetting assess_interrupts(const MachineText& machine, const std::vector<int>& isolated) {
+  const RealtimeRequest interrupts{"interrupts", "none on isolated CPUs"};
+  std::vector<int> there;
+  for (const auto& [number, list] : machine.interrupts) {
+    const std::vector<int> cpus = parse_cpu_list(list).value_or(std::vector<int>{});
+    if (std::any_of(cpus.begin(), cpus.end(), [&](int cpu) {
+          return std::find(isolated.begin(), isolated.end(), cpu) != isolated.end();
+        })) {
+      there.push_back(number);
+    }
+  }
+  if (there.empty()) return interrupts.granted("none");
+  return interrupts.limiting("number " + to_cpu_list(there) + " on CPU " + to_cpu_list(isolated),
+                             "they interrupt the threads that are bound there",
+                             "disable irqbalance; as root, write the other CPUs to "
+                             "/proc/irq/NUMBER/smp_affinity_list");
+}
+
 }  // namespace
 
 MachineText read_machine(const std::filesystem::path& root) {
@@ -144,12 +194,30 @@ MachineText read_machine(const std::filesystem::path& root) {
       machine.governors.emplace_back(cpu, std::move(*governor));
     }
   }
+  machine.clock_source =
+      read_system_file(root / "sys/devices/system/clocksource/clocksource0/current_clocksource");
+  machine.huge_pages = read_system_file(root / "sys/kernel/mm/transparent_hugepage/enabled");
+  std::error_code error;  // a folder that cannot be read has no interrupts
+  const std::filesystem::directory_iterator end;
+  for (std::filesystem::directory_iterator irq(root / "proc/irq", error); !error && irq != end;
+       irq.increment(error)) {
+    const auto number = parse_integer(irq->path().filename().string());
+    auto list = read_system_file(irq->path() / "effective_affinity_list");
+    if (number && list)
+      machine.interrupts.emplace_back(static_cast<int>(*number), std::move(*list));
+  }
+  std::sort(machine.interrupts.begin(), machine.interrupts.end());
   return machine;
 }
 
 std::vector<RealtimeSetting> assess(const MachineText& machine) {
-  return {assess_kernel(machine), assess_throttling(machine), assess_frequency(machine),
-          assess_virtual_machine(machine), assess_isolation(machine)};
+  std::vector<RealtimeSetting> settings{assess_kernel(machine),    assess_throttling(machine),
+                                        assess_frequency(machine), assess_virtual_machine(machine),
+                                        assess_isolation(machine), assess_clock(machine),
+                                        assess_huge_pages(machine)};
+  const auto isolated = parse_cpu_list(view(machine.isolated_cpus));
+  if (isolated && !isolated->empty()) settings.push_back(assess_interrupts(machine, *isolated));
+  return settings;
 }
 
 }  // namespace maploop::runtime

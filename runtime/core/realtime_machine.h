@@ -23,12 +23,17 @@ struct MachineText {
   std::optional<std::string> online_cpus;              // /sys/devices/system/cpu/online
   std::optional<std::string> isolated_cpus;            // /sys/devices/system/cpu/isolated
   std::vector<std::pair<int, std::string>> governors;  // .../cpuN/cpufreq/scaling_governor
+  // /sys/devices/system/clocksource/clocksource0/current_clocksource
+  std::optional<std::string> clock_source;
+  std::optional<std::string> huge_pages;  // /sys/kernel/mm/transparent_hugepage/enabled
+  std::vector<std::pair<int, std::string>> interrupts;  // /proc/irq/N/effective_affinity_list
 };
 
 // `root` is the folder of proc and sys.
 MachineText read_machine(const std::filesystem::path& root = "/");
 
-// Returns "kernel", "real-time throttling", "CPU frequency", "virtual machine", "isolated CPUs".
+// Returns "kernel", "real-time throttling", "CPU frequency", "virtual machine", "isolated CPUs",
+// "clock", "huge pages", and, where CPUs are isolated, "interrupts".
 std::vector<RealtimeSetting> assess(const MachineText& machine);
 
 }  // namespace maploop::runtime

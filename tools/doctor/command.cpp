@@ -15,6 +15,7 @@
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"
 #include "tools/command/options.h"
+#include "tools/doctor/memory_report.h"
 #include "tools/doctor/recording_health.h"
 #include "tools/doctor/recording_report.h"
 #include "tools/doctor/saturation.h"
@@ -31,6 +32,7 @@ struct DoctorOptions {
   std::string lcm_url;
   std::filesystem::path recording;  // empty: the machine is examined
   std::vector<std::string> settings, topics;
+  bool realtime = false;  // what happens without a recording anyhow, said aloud
 };
 
 // Asks the kernel for each thread of the graph as a paced replay would.
@@ -96,9 +98,11 @@ int doctor(const DoctorOptions& options) {
   runtime::RealtimeReport report = runtime::prepare_process(config.memory);
   ask_for_threads(config, report);
   runtime::append(report, ask_for_bus(vehicle::bus_url(options.lcm_url, config.lcm_url)));
-  std::cout << runtime::to_text(report);
+  const MemoryReport memory = memory_report(config);
+  std::cout << runtime::to_text(report) << to_text(memory);
   if (!options.json.empty()) {
     write_json_file(options.json, {{"all_granted", report.all_granted()},
+                                   {"memory", to_json(memory)},
                                    {"settings", web::list(setting_columns, report.settings)}});
   }
   return 0;
@@ -115,6 +119,8 @@ void add_doctor(CLI::App& app, Command& command) {
   CLI::Option* recording =
       sub->add_option("RECORDING", options.recording,
                       "Whatever maploop replay takes. Without it, the machine is examined");
+  sub->add_flag("--realtime", options.realtime, "Examine the machine, as without RECORDING")
+      ->excludes(recording);
   add_topics(sub, options.topics);
   add_config(sub, options.config);
   add_settings(sub, options.settings);

@@ -32,12 +32,15 @@ MachineText vehicle_computer() {
   machine.online_cpus = "0-3";
   machine.isolated_cpus = "2-3";
   machine.governors = {{0, "performance"}, {1, "performance"}, {2, "performance"}};
+  machine.clock_source = "arch_sys_counter";
+  machine.huge_pages = "always [madvise] never";
+  machine.interrupts = {{1, "0"}, {9, "0-1"}, {24, "1"}};
   return machine;
 }
 
 TEST(RealtimeMachine, APreemptRtKernelOnIsolatedCpusLeavesNothingToSay) {
   const RealtimeReport report{assess(vehicle_computer())};
-  EXPECT_EQ(report.settings.size(), 5u);
+  EXPECT_EQ(report.settings.size(), 8u);
   EXPECT_TRUE(report.all_granted()) << to_text(report);
   EXPECT_EQ(item(vehicle_computer(), "isolated CPUs").granted, "2-3 of 0-3");
 }
@@ -66,6 +69,36 @@ TEST(RealtimeMachine, KernelsAreKnownByTheirFileOrTheirName) {
               "PREEMPT_RT");
   expect_item("kernel", kernel("Linux version 5.10.0-rt #1 SMP PREEMPT_RT Debian"), granted,
               "PREEMPT_RT");
+}
+
+TEST(RealtimeMachine, AClockThatIsReadByTheKernelIsLimiting) {
+  expect_item(
+      "clock", [](M& m) { m.clock_source = "hpet"; }, limiting, "hpet");
+  expect_item(
+      "clock", [](M& m) { m.clock_source = "tsc"; }, granted, "tsc");
+  expect_item(
+      "clock", [](M& m) { m.clock_source.reset(); }, unknown, "unknown");
+}
+
+TEST(RealtimeMachine, HugePagesForEveryProgramAreLimiting) {
+  expect_item(
+      "huge pages", [](M& m) { m.huge_pages = "[always] madvise never"; }, limiting, "always");
+  expect_item(
+      "huge pages", [](M& m) { m.huge_pages = "always madvise [never]"; }, granted, "never");
+  for (const char* no_choice : {"", "]always[", "[always"})
+    expect_item(
+        "huge pages", [=](M& m) { m.huge_pages = no_choice; }, unknown, "unknown");
+}
+
+TEST(RealtimeMachine, InterruptsOnIsolatedCpusAreNamed) {
+  expect_item(
+      "interrupts", [](M& m) { m.interrupts.emplace_back(30, "2"); }, limiting,
+      "number 30 on CPU 2-3");
+  expect_item(
+      "interrupts", [](M& m) { m.interrupts.emplace_back(30, "no list"); }, granted, "none");
+  MachineText without = vehicle_computer();
+  without.isolated_cpus = "";
+  EXPECT_EQ(item(without, "interrupts").name, "") << "the line of isolated CPUs says enough";
 }
 
 TEST(RealtimeMachine, ThrottlingBelowNinetyPercentIsLimiting) {
@@ -139,6 +172,9 @@ TEST(RealtimeMachine, FilesAreReadFromWhereTheyAre) {
   put("sys/devices/system/cpu/online", "0-1\n");
   put("sys/devices/system/cpu/isolated", "\n");
   put("sys/devices/system/cpu/cpu1/cpufreq/scaling_governor", "powersave\n");
+  put("sys/devices/system/clocksource/clocksource0/current_clocksource", "tsc\n");
+  put("proc/irq/24/effective_affinity_list", "0-1\n");
+  put("proc/irq/default_smp_affinity", "3\n");
   const MachineText machine = read_machine(root.path());
   EXPECT_EQ(machine.version, "Linux version 6 PREEMPT_RT");
   EXPECT_EQ(machine.rt_runtime_us, "-1");
@@ -147,6 +183,8 @@ TEST(RealtimeMachine, FilesAreReadFromWhereTheyAre) {
   ASSERT_EQ(machine.governors.size(), 1u);
   EXPECT_EQ(machine.governors[0].first, 1);
   EXPECT_EQ(machine.governors[0].second, "powersave");
+  EXPECT_EQ(machine.clock_source, "tsc");
+  EXPECT_EQ(machine.interrupts, (std::vector<std::pair<int, std::string>>{{24, "0-1"}}));
 }
 
 TEST(RealtimeMachine, ThisMachineIsReadable) {
