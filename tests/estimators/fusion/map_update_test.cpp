@@ -3,35 +3,20 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
 
-#include "estimators/fusion/guarded_filter.h"
 #include "tests/estimators/fusion/filter_run.h"
 #include "tests/estimators/fusion/numerical_jacobian.h"
+#include "tests/estimators/fusion/road_feedback.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
-#include "tests/support/broken_archives.h"
 
 namespace maploop::fusion {
 namespace {
 
 using namespace maploop::testing;
-
-// Returns a straight road to the north near a place, whose line is `right` metres to the right of
-// it.
-MapFeedback road(const LocalFrame& frame, const Eigen::Vector2d& place, double right = 0.0) {
-  MapFeedback f;
-  f.reason = FeedbackReason::none;
-  f.position = f.azimuth = true;
-  f.point = frame.to_geodetic({place.x() + right, place.y(), 0.0});
-  f.cross_sigma = 1.0;
-  f.lane_sigma = 2.0;
-  f.azimuth_sigma = 0.03;
-  return f;
-}
 
 FilterState state_at_origin(double sigma) {
   FilterState state;
@@ -152,17 +137,6 @@ TEST(MapUpdate, AHardResetBecomesTheMatchedPlace) {
   EXPECT_DOUBLE_EQ(state.P(index::east, index::gyro_bias), 0.0);
 }
 
-// Returns a filter that knows the start of the synthetic drives.
-ReducedImuFilter started_filter(const FusionParameters& p = configured("RISS")) {
-  ReducedImuFilter filter(p, test_origin());
-  KnownStart start;
-  start.stamp = SyntheticDrive::at(0.0);
-  start.position = test_origin();
-  start.speed = 10.0;
-  filter.start(start);
-  return filter;
-}
-
 // Holds the result of a drive to the north with wheels and feedback of the road every second.
 struct Driven {
   std::optional<NavState> end;
@@ -233,87 +207,6 @@ TEST(MapFeedback, IsRefusedAtTheDoorWithAReason) {
   f.position = true;
   f.available = f.stamp - from_seconds(1.0);
   EXPECT_EQ(filter.add(f), refused(Reason::after_delivery));
-}
-
-// The map of this straight drive has a road that diverges by 0.1 rad, little enough to pass the
-// gates of its line.
-struct Misled {
-  double error = 0.0, free_error = 0.0, largest = 0.0, largest_free = 0.0;
-  std::uint64_t restorations = 0;
-};
-
-Misled drive_beside_wrong_road(const GuardParameters& guard, double wrong_from) {
-  const SyntheticDrive drive({}, 200.0, test_origin());
-  ReducedImuFilter plain = started_filter();
-  GuardedFilter filter(plain, guard);
-  const LocalFrame frame(test_origin());
-  Misled result;
-  const auto imu = drive.imu(10.0);
-  const auto wheels = drive.wheels(0.0, 200.05);
-  for (std::size_t i = 1; i < imu.size(); ++i) {
-    const ImuSample& s = imu[i];
-    const double t = to_seconds(s.stamp - SyntheticDrive::at(0.0));
-    filter.add(s);
-    filter.add(wheels[i]);
-    plain.add(s);
-    plain.add(wheels[i]);
-    if (i % 10 != 0) continue;
-    const double right = t > wrong_from ? 1.0 * (t - wrong_from) : 0.0;
-    MapFeedback f = road(frame, drive.pose(t).translation().head<2>(), right);
-    if (t > wrong_from) f.link_azimuth = 0.1;
-    f.stamp = f.available = s.stamp;
-    f.sequence = i;
-    filter.add(f);
-    const Eigen::Vector2d truth = drive.pose(t).translation().head<2>();
-    result.error = (filter.aided().state_at(s.stamp)->position_enu.head<2>() - truth).norm();
-    result.free_error = (plain.state_at(s.stamp)->position_enu.head<2>() - truth).norm();
-    result.largest = std::max(result.largest, result.error);
-    result.largest_free = std::max(result.largest_free, result.free_error);
-  }
-  result.restorations = filter.status().restorations;
-  return result;
-}
-
-TEST(GuardedFilter, IsNotLedAstrayByARoadThatPassesTheGates) {
-  GuardParameters unguarded;
-  unguarded.difference_gate = std::numeric_limits<double>::infinity();
-  const Misled without = drive_beside_wrong_road(unguarded, 60.0);
-  const Misled with = drive_beside_wrong_road({}, 60.0);
-  EXPECT_EQ(without.restorations, 0u);
-  EXPECT_GT(with.restorations, 0u);
-  EXPECT_LT(with.largest, 0.6 * without.largest);
-}
-
-TEST(GuardedFilter, LeavesARightRoadAlone) {
-  const Misled right = drive_beside_wrong_road({}, 1e9);
-  EXPECT_EQ(right.restorations, 0u);
-  EXPECT_LT(right.largest, 1.0);
-}
-
-TEST(GuardedFilter, GoesOnFromAnArchive) {
-  GuardedFilter filter(started_filter(), {});
-  const SyntheticDrive drive({}, 20.0, test_origin());
-  const LocalFrame frame(test_origin());
-  const auto add = [&](GuardedFilter& to, const ImuSample& s) {
-    to.add(s);
-    MapFeedback f = road(frame, {0.0, 0.0});
-    f.stamp = f.available = s.stamp;
-    f.sequence = s.sequence;
-    to.add(f);
-  };
-  const auto imu = drive.imu(10.0);
-  for (const ImuSample& s : imu)
-    if (s.stamp > SyntheticDrive::at(0.0) && s.stamp < SyntheticDrive::at(10.0)) add(filter, s);
-  GuardedFilter resumed(ReducedImuFilter(configured("RISS")), {});
-  load(saved(filter), resumed);
-  for (const ImuSample& s : imu) {
-    if (s.stamp < SyntheticDrive::at(10.0)) continue;
-    add(filter, s);
-    add(resumed, s);
-  }
-  EXPECT_EQ(saved(filter), saved(resumed));
-  EXPECT_LT(saved(filter).size(), filter.largest_archive(true));
-  expect_refuses_broken(saved(filter), resumed);
 }
 
 }  // namespace
