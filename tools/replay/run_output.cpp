@@ -113,9 +113,23 @@ std::vector<RealtimeSetting> RunOutput::open_bus() {
   return bus_->settings();
 }
 
+// A computer that nobody attends starts without a damaged file, and keeps it to be looked at.
+std::optional<vehicle::CarState> RunOutput::known_car_state() const {
+  try {
+    return vehicle::read_car_state(options_.state, config_.vehicle.car.name);
+  } catch (const vehicle::DamagedCarState& damage) {
+    std::filesystem::path aside = options_.state;
+    aside += ".damaged";
+    std::filesystem::rename(options_.state, aside);
+    std::cerr << "maploop: " << damage.what() << "; the file is kept as '" << aside.string()
+              << "', and this run starts without it\n";
+    return std::nullopt;
+  }
+}
+
 void RunOutput::recall(vehicle::Vehicle& vehicle) {
   if (options_.state.empty()) return;
-  const auto known = vehicle::read_car_state(options_.state, config_.vehicle.car.name);
+  const std::optional<vehicle::CarState> known = known_car_state();
   if (!known) return;
   remembered_ = known->calibration;
   vehicle.recall(known->calibration);

@@ -73,7 +73,8 @@ class RunOutput {
   vehicle::RunPresence* presence() { return presence_ ? &*presence_ : nullptr; }
 
   // Tells the vehicle where the car was, and what an earlier drive has estimated of it (--state);
-  // before start(). Throws std::runtime_error if the file cannot be used.
+  // before start(). A damaged file is renamed and said. Throws std::runtime_error if the file
+  // cannot be used.
   void recall(vehicle::Vehicle& vehicle);
 
   // Writes where the car is, and what has been estimated of it since, every two seconds: a
@@ -109,6 +110,7 @@ class RunOutput {
   std::optional<vehicle::RunPresence> presence_;
   std::unique_ptr<runtime::Tracer> tracer_;
 
+  std::optional<vehicle::CarState> known_car_state() const;
   void say_place(fusion::PlaceUse use);
 
   std::mutex car_state_mutex_;

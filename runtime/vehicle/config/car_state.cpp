@@ -156,18 +156,25 @@ std::optional<CarState> read_car_state(const std::filesystem::path& file, const 
   } catch (const FileError& error) {
     throw runtime::ConfigError(std::string(error.what()) + "; --state needs a file it may read");
   }
-  const auto document = runtime::ConfigDocument::parse(text, file.string());
-  const runtime::ConfigTable root = document.root();
-  check_version(root, text);
   std::string named;
-  root.read("car", named);
-  if (named != car) {
-    root.fail("car", "is " + toml_text(named) + ", but [vehicle] name of the configuration is " +
-                         toml_text(car) + ": name another file with --state, one for each car");
+  CarState state;
+  try {
+    const auto document = runtime::ConfigDocument::parse(text, file.string());
+    const runtime::ConfigTable root = document.root();
+    check_version(root, text);
+    root.read("car", named);
+    state.calibration = read_calibration(root);
+    if (root.has("place")) state.place = read_place(root.table("place"));
+    document.reject_unknown();
+  } catch (const runtime::ConfigError& damage) {
+    throw DamagedCarState(damage.what());
   }
-  CarState state{read_calibration(root), std::nullopt};
-  if (root.has("place")) state.place = read_place(root.table("place"));
-  document.reject_unknown();
+  if (named != car) {
+    throw runtime::ConfigError(fmt::format(
+        "{}: car: is {}, but [vehicle] name of the configuration is {}: name another file with "
+        "--state, one for each car",
+        file.string(), toml_text(named), toml_text(car)));
+  }
   return state;
 }
 

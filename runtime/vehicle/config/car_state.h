@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "estimators/fusion/last_place.h"
@@ -17,10 +18,16 @@ struct CarState {
   std::optional<fusion::LastPlace> place;
 };
 
+// Names file, line and key of what is wrong: the file is of another version, cut off, or was
+// changed since it was written.
+class DamagedCarState : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // Returns what the file says of the car of that name; nothing if there is no such file. Throws
-// std::runtime_error (runtime::ConfigError) that names file, line and key of what is wrong, and if
-// the file is of a car with another name, of another version, or was changed since it was written.
-// (Files of the first version have neither a place nor a checksum.)
+// DamagedCarState, and another std::runtime_error if the file cannot be read or is of a car with
+// another name. (Files of the first version have neither a place nor a checksum.)
 std::optional<CarState> read_car_state(const std::filesystem::path& file, const std::string& car);
 
 // What is to be written, as of the time `at`.

@@ -103,6 +103,15 @@ TEST_F(FirstSeconds, WhatWasLearntOfTheCarIsKeptAndUsed) {
               AllOf(HasSubstr("car.state"), HasSubstr("golf")));
 }
 
+TEST_F(FirstSeconds, ADamagedStateIsNamedKeptAsideAndNotUsed) {
+  const std::string state = write("car.state", "version = 2\ncar = \"\"\nat = ");
+  const ProcessResult run = run_maploop(
+      {"replay", lockstep().log(), "--no-lcm", "--lockstep", "--end", "1", "--state", state});
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(run.error, AllOf(HasSubstr("car.state:3"), HasSubstr("car.state.damaged")));
+  EXPECT_THAT(read_file(state + ".damaged"), HasSubstr("version = 2"));
+}
+
 TEST_F(FirstSeconds, ARestartHasItsPositionAtOnceAndNamesAPlaceThatIsWrong) {
   const auto part = [this](const char* name, Words options) {
     options.insert(options.begin(), {"log", "split", lockstep().log(), "-o", file(name)});
