@@ -18,9 +18,9 @@ using Command = std::function<int()>;
 // Adds a subcommand to `app`, which sets `command` if the command line names it.
 using AddCommand = void(CLI::App& app, Command& command);
 
-AddCommand add_calibrate, add_dashboard, add_doctor, add_evaluate, add_experiment, add_gnss,
-    add_log, add_map, add_match, add_odometry, add_ppp, add_profile, add_send, add_sensors,
-    add_simulate, add_spy, add_vehicle;
+AddCommand add_analyze, add_calibrate, add_dashboard, add_doctor, add_evaluate, add_experiment,
+    add_gnss, add_log, add_map, add_match, add_odometry, add_ppp, add_profile, add_send,
+    add_sensors, add_simulate, add_spy, add_vehicle;
 AddCommand add_evaluate_match;        // of `maploop evaluate`
 AddCommand add_calibrate_extrinsics;  // of `maploop calibrate`
 

@@ -15,10 +15,10 @@ void replay_and_page(CLI::App& app, Command& command) {
 }
 
 constexpr AddCommand* commands[] = {
-    add_calibrate, add_dashboard, add_doctor,  add_evaluate,    add_experiment,
-    add_gnss,      live_and_page, add_log,     add_map,         add_match,
-    add_odometry,  add_ppp,       add_profile, replay_and_page, add_send,
-    add_sensors,   add_simulate,  add_spy,     add_vehicle,
+    add_analyze,    add_calibrate, add_dashboard, add_doctor,  add_evaluate,
+    add_experiment, add_gnss,      live_and_page, add_log,     add_map,
+    add_match,      add_odometry,  add_ppp,       add_profile, replay_and_page,
+    add_send,       add_sensors,   add_simulate,  add_spy,     add_vehicle,
 };
 
 }  // namespace

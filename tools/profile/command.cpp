@@ -5,14 +5,13 @@
 #include <memory>
 #include <string>
 
-#include "msgs/lcm/checked_decode.h"
 #include "tools/command/bus_listener.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/command/terminal.h"
 #include "tools/evaluate/text_file.h"
-#include "tools/log/log_files.h"
+#include "tools/profile/comparison.h"
 #include "tools/profile/profile.h"
 
 namespace maploop::tools {
@@ -21,7 +20,7 @@ namespace {
 using std::filesystem::path;
 
 struct ProfileOptions {
-  path log;
+  path log, other;
   bool live = false;
   std::string lcm_url;
   double seconds = 0.0;  // 0: until interrupted
@@ -40,28 +39,36 @@ void listen(const std::string& url, const ProfileOptions& options,
   }
 }
 
+void write(const ProfileOptions& options, const std::string& text, const std::string& json,
+           const std::string& html) {
+  std::cout << text;
+  if (!options.json.empty()) evaluation::write_text(options.json, json);
+  if (!options.html.empty()) evaluation::write_text(options.html, html);
+}
+
 int run(const ProfileOptions& options) {
   if (options.live != options.log.empty()) {
     throw CLI::RequiredError("either LOG or --live");
   }
-  profile::ProfileCollector collector;
-  const std::string url = vehicle::bus_url(options.lcm_url);
-  const std::string source = "'" + (options.live ? url : options.log.string()) + "'";
+  if (!options.other.empty()) {
+    const profile::Comparison both =
+        profile::compare(options.log.string(), profile::profile_of_log(options.log),
+                         options.other.string(), profile::profile_of_log(options.other));
+    write(options, profile::to_text(both), profile::to_json(both), profile::to_html(both));
+    return 0;
+  }
+  profile::Profile result;
+  std::string name = options.log.filename().string();
   if (options.live) {
-    listen(url, options, collector);
+    profile::ProfileCollector collector;
+    name = vehicle::bus_url(options.lcm_url);
+    listen(name, options, collector);
+    result = collector.profile("'" + name + "'");
   } else {
-    lcm_log::read_log(options.log, schema::own_schema(), [&](const lcm_log::LogEvent& event) {
-      collector.add(event.channel, event.data);
-    });
+    result = profile::profile_of_log(options.log);
   }
-  const profile::Profile result = collector.profile(source);
-  std::cout << profile::to_text(result);
-  if (!options.json.empty()) evaluation::write_text(options.json, profile::to_json(result));
-  if (!options.html.empty()) {
-    evaluation::write_text(
-        options.html,
-        profile::to_html(result, options.live ? url : options.log.filename().string()));
-  }
+  write(options, profile::to_text(result), profile::to_json(result),
+        profile::to_html(result, name));
   return 0;
 }
 
@@ -77,6 +84,10 @@ void add_profile(CLI::App& app, Command& command) {
   sub->add_option("--seconds", options.seconds, "Listen this long; without it until Ctrl-C")
       ->needs(live)
       ->check(positive_number());
+  sub->add_option("--compare", options.other,
+                  "LCM log of another run of the same recording, such as one on another machine "
+                  "or before a change: its figures are shown beside those of LOG, with ratios")
+      ->needs(log);
   add_output(sub, "--json", options.json, "Write the same to this file as JSON");
   add_output(sub, "--html", options.html, "Write a page with pictures to this file");
 }

@@ -9,6 +9,7 @@
 #include "msgs/lcm/conversions.h"
 #include "runtime/core/histogram.h"
 #include "runtime/vehicle/graph/graph.h"
+#include "tools/log/log_files.h"
 
 namespace maploop::profile {
 namespace {
@@ -145,6 +146,14 @@ Profile ProfileCollector::profile(const std::string& source) const {
   } catch (const std::invalid_argument& e) {
     throw std::runtime_error("the last DEADLINES of " + source + " is damaged: " + e.what());
   }
+}
+
+Profile profile_of_log(const std::filesystem::path& log) {
+  ProfileCollector collector;
+  lcm_log::read_log(log, schema::own_schema(), [&](const lcm_log::LogEvent& event) {
+    collector.add(event.channel, event.data);
+  });
+  return collector.profile("'" + log.string() + "'");
 }
 
 }  // namespace maploop::profile

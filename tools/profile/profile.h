@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -77,6 +78,9 @@ class ProfileCollector {
   Deadlines deadlines_;
   Health health_;
 };
+
+// Reads a log of LCM. Throws std::runtime_error that names it if it cannot be read, too.
+Profile profile_of_log(const std::filesystem::path& log);
 
 // Return a table for a terminal, and the same as JSON and as one self-contained HTML page.
 std::string to_text(const Profile& profile);

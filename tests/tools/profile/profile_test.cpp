@@ -4,6 +4,7 @@
 #include "msgs/lcm/conversions.h"
 #include "runtime/core/histogram.h"
 #include "tests/support/command_test.h"
+#include "tools/profile/comparison.h"
 
 namespace maploop::profile {
 namespace {
@@ -65,6 +66,27 @@ TEST(Profile, TheLastMessagesCount) {
   collector.add("NAV_STATE", encoded(to_lcm(NavState{})));
   EXPECT_EQ(collector.profile("test").health.cpu, 2.0);
   EXPECT_EQ(collector.profile("test").threads.size(), 1u);
+}
+
+TEST(ProfileComparison, HasRatiosAndADashForWhatOneRunLacks) {
+  Deadlines slower = stalled_thread();
+  slower.threads[0].p50 = 3 * slower.threads[0].p50;
+  slower.threads[0].misses = 0;
+  slower.threads.push_back(LatencySummary{.name = "ppp"});
+  Health health;
+  health.cpu = 2.0;
+  const Comparison c =
+      compare("first", profile_of(stalled_thread(), health), "second", profile_of(slower, health));
+  ASSERT_EQ(c.groups.size(), 1u) << "the other groups are empty";
+  const std::vector<Compared>& threads = c.groups[0].items;
+  ASSERT_EQ(threads.size(), 2u);
+  EXPECT_NEAR(threads[0].p50.ratio(), 3.0, 1e-9);
+  EXPECT_NEAR(threads[0].missed.a, 100.0 / 101.0, 1e-9);
+  EXPECT_EQ(threads[0].missed.b, 0.0);
+  EXPECT_FALSE(std::isfinite(threads[1].p50.a)) << "only the second run has ppp, and no epoch";
+  EXPECT_NE(to_text(c).find("  3.00"), std::string::npos) << to_text(c);
+  EXPECT_EQ(json::parse(to_json(c))["Processor time"]["process"]["processor"]["ratio"], 1.0);
+  EXPECT_NE(to_html(c).find("fu&lt;s&gt;ion"), std::string::npos);
 }
 
 TEST(Profile, DamagedAndForeignMessagesAreNamed) {
@@ -168,6 +190,21 @@ TEST_F(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
   }
   EXPECT_GE(pictures, 11u) << "distributions";
   EXPECT_NE(html.find("class=\"bar\""), std::string::npos) << "the misses";
+
+  const ProcessResult both = profile_command(
+      {file("run.lcmlog"), "--compare", file("run.lcmlog"), "--html", file("both.html")});
+  EXPECT_EQ(both.status, 0) << both.error;
+  EXPECT_NE(both.out.find("fusion"), std::string::npos);
+  EXPECT_NE(read_file(file("both.html")).find("<table"), std::string::npos);
+
+  const ProcessResult analysis =
+      run_maploop({"analyze", file("run.lcmlog"), "--cpus", "2", "--json", file("analysis.json")});
+  EXPECT_EQ(analysis.status, 0) << analysis.error;
+  EXPECT_NE(analysis.out.find("fusion: 2 ms cannot be promised"), std::string::npos)
+      << "a fault made it slow: " << analysis.out;
+  const json threads = read_json(file("analysis.json"))["threads"];
+  EXPECT_GT(threads["fusion"]["response_bound_ms"], 20.0);
+  EXPECT_TRUE(threads.contains("stereo") && threads.contains("camera")) << threads;
 }
 
 TEST_F(ProfileCommand, SaysWhatIsWrong) {

@@ -1,0 +1,175 @@
+#include "tools/analyze/analysis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+#include "runtime/vehicle/graph/ring_specs.h"
+#include "runtime/vehicle/graph/stage_specs.h"
+#include "tools/analyze/response_time.h"
+
+namespace maploop::analyze {
+namespace {
+
+using vehicle::StageSpec;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double driver_margin = 3.0;  // on the mean processor time of a step
+
+// Returns nullptr if there is none of that name.
+const LatencySummary* find(const std::vector<LatencySummary>& all, std::string_view name) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
+  return found != all.end() && found->count > 0 ? &*found : nullptr;
+}
+
+const StageSpec* stage_of(const std::string& name) {
+  const auto found = std::find_if(vehicle::stages::all.begin(), vehicle::stages::all.end(),
+                                  [&](const StageSpec& stage) { return stage.name == name; });
+  return found != vehicle::stages::all.end() ? &*found : nullptr;
+}
+
+// A thread that is analyzed, with how it is scheduled.
+struct Thread {
+  Promise promise;
+  Task task;
+};
+
+bool goes_first(const runtime::Scheduling& scheduling) {
+  using enum runtime::SchedulingPolicy;
+  return scheduling.policy == fifo || scheduling.policy == rr || scheduling.policy == deadline;
+}
+
+// Above all of fifo and rr.
+int priority_of(const runtime::Scheduling& scheduling) {
+  return scheduling.policy == runtime::SchedulingPolicy::deadline ? 100 : scheduling.priority;
+}
+
+Thread thread_of(const ThreadHealth& health, const StageSpec& stage,
+                 const runtime::Scheduling& scheduling, const profile::Profile& run,
+                 const BoundParameters& parameters) {
+  Thread thread;
+  Promise& p = thread.promise;
+  p.name = health.name;
+  p.scheduling = runtime::to_string(scheduling);
+  const double steps = static_cast<double>(health.count);
+  p.period = stage.period > Duration::zero() ? to_milliseconds(stage.period)
+                                             : 1e3 * run.health.elapsed / steps;
+  if (const LatencySummary* execution = find(run.execution, health.name)) {
+    p.execution = execution_bound(*execution, parameters);
+  } else {
+    p.from_mean = true;
+    p.execution.observed = unknown;
+    p.execution.bound = driver_margin * 1e3 * health.cpu / steps;
+  }
+  const auto response =
+      std::find_if(run.threads.begin(), run.threads.end(),
+                   [&](const profile::Latency& l) { return l.name == health.name; });
+  p.measured = response != run.threads.end() ? to_milliseconds(response->max) : unknown;
+  p.deadline = to_milliseconds(stage.deadline);
+  thread.task = {p.name, priority_of(scheduling), scheduling.cpus, p.period, p.execution.bound, {}};
+  return thread;
+}
+
+// Lets each thread be released by the results of those that send it samples, unless it has a rate
+// of its own.
+void join(std::vector<Task>& tasks) {
+  const auto index = [&](std::string_view name) {
+    return static_cast<std::size_t>(
+        std::find_if(tasks.begin(), tasks.end(), [&](const Task& t) { return t.name == name; }) -
+        tasks.begin());
+  };
+  const auto add = [&](const auto& ring) {
+    const std::size_t from = index(ring.from.name), to = index(ring.to.name);
+    if (from < tasks.size() && to < tasks.size() && ring.to.period == Duration::zero())
+      tasks[to].after.push_back(from);
+  };
+  std::apply([&](const auto&... ring) { (add(ring), ...); }, vehicle::rings::all);
+}
+
+// Returns what would let the task meet its deadline.
+std::string remedy(const std::vector<Task>& tasks, std::size_t i, int cpus, const Analysis& a) {
+  const Promise& p = a.threads[i];
+  const auto kept = [&](const std::vector<Task>& changed, int n, double blocking) {
+    return response_times(changed, n, blocking)[i] <= p.deadline;
+  };
+  if (p.execution.bound > p.deadline)
+    return fmt::format("its own step takes up to {:.3f} ms", p.execution.bound);
+  if (kept(tasks, cpus, 0.0)) {
+    return fmt::format(
+        "the kernel wakes threads up to {:.3f} ms late, without which it would be kept: see "
+        "maploop doctor",
+        a.blocking);
+  }
+  std::vector<Task> first = tasks;
+  for (const Task& task : tasks) first[i].priority = std::max(first[i].priority, task.priority + 1);
+  if (kept(first, cpus, a.blocking)) return fmt::format("priority {} would do", first[i].priority);
+  if (cpus > 1) {
+    std::vector<Task> apart = tasks;
+    for (Task& task : apart) {
+      task.cpus.clear();
+      for (int cpu = 0; cpu < cpus - 1; ++cpu) task.cpus.push_back(cpu);
+    }
+    apart[i].cpus = {cpus - 1};
+    if (kept(apart, cpus, a.blocking))
+      return fmt::format("a CPU of its own would do: cpus = [{}], and the others elsewhere",
+                         cpus - 1);
+  }
+  constexpr int most_cpus = 16;
+  for (int more = cpus + 1; more <= most_cpus; ++more) {
+    if (kept(tasks, more, a.blocking)) return fmt::format("{} CPUs would do", more);
+  }
+  return "no priority, and no number of CPUs up to 16, would do";
+}
+
+}  // namespace
+
+Analysis analyze(const profile::Profile& run, const vehicle::SchedulingParameters& scheduling,
+                 const AnalysisParameters& parameters) {
+  if (run.virtual_time()) {
+    throw std::invalid_argument(
+        "the run was on virtual time (--lockstep), where no thread waits for a time: record one "
+        "without it");
+  }
+  std::vector<Thread> threads;
+  for (const ThreadHealth& health : run.health.threads) {
+    const StageSpec* stage = stage_of(health.name);
+    if (stage == nullptr || health.count == 0) continue;
+    const runtime::Scheduling& how = vehicle::scheduling_of(scheduling, *stage);
+    if (goes_first(how))
+      threads.push_back(thread_of(health, *stage, how, run, parameters.execution));
+  }
+  std::stable_sort(threads.begin(), threads.end(), [](const Thread& a, const Thread& b) {
+    return a.task.priority > b.task.priority;
+  });
+  Analysis analysis;
+  analysis.cpus = parameters.cpus;
+  std::vector<Task> tasks;
+  for (const Thread& thread : threads) {
+    tasks.push_back(thread.task);
+    analysis.utilization += thread.task.execution / thread.task.period / parameters.cpus;
+    if (const LatencySummary* late = find(run.wake_up, thread.task.name))
+      analysis.blocking = std::max(analysis.blocking, to_milliseconds(late->max));
+  }
+  join(tasks);
+  const std::vector<double> response = response_times(tasks, parameters.cpus, analysis.blocking);
+  for (std::size_t i = 0; i < threads.size(); ++i) {
+    threads[i].promise.response = response[i];
+    analysis.threads.push_back(threads[i].promise);
+  }
+  for (std::size_t i = 0; i < threads.size(); ++i) {
+    const Promise& p = analysis.threads[i];
+    if (!p.kept()) {
+      analysis.advice.push_back(fmt::format("{}: {:.0f} ms cannot be promised; {}.", p.name,
+                                            p.deadline,
+                                            remedy(tasks, i, parameters.cpus, analysis)));
+    }
+  }
+  return analysis;
+}
+
+}  // namespace maploop::analyze
