@@ -36,6 +36,9 @@ struct Satellite {
 };
 inline constexpr std::size_t satellite_slots = system_count * 100;  // size of a table by slot()
 
+// A receiver of all systems tracks no more: buffers have room for them from the first epoch on.
+inline constexpr std::size_t usual_satellites = 64;
+
 template <class Archive>
 void archive(Archive& ar, Satellite& s) {
   ar(s.system, s.number);

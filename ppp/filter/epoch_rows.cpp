@@ -45,6 +45,7 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
                                   const UnobstructedCn0& strength, FilterState& state,
                                   std::vector<SatelliteReport>& reports) {
   rows_.clear();
+  rows_.reserve(3 * usual_satellites);  // code, phase, Doppler
   const bool use_doppler = parameters_.motion == Motion::kinematic;
   if (use_doppler) set_drift(tracked, state);
   for (std::size_t i = 0; i < tracked.size(); ++i) {
@@ -70,6 +71,7 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
 
 void EpochRows::set_drift(const std::vector<Tracked>& tracked, FilterState& state) {
   drifts_.clear();
+  drifts_.reserve(usual_satellites);
   for (const Tracked& t : tracked) {
     if (has_doppler(t)) drifts_.push_back(drift_of(t, state));
   }

@@ -12,6 +12,7 @@ void FilterState::clear() {
 }
 
 FilterState& FilterState::operator=(const FilterState& other) {
+  entries_.reserve(max_entries);
   entries_ = other.entries_;
   x() = other.x();
   P() = other.P();
@@ -51,8 +52,9 @@ void FilterState::remove(Satellite satellite, Part part) {
   if (at != last) {
     const double variance = P_(last, last);
     x_[at] = x_[last];
-    P_.row(at).head(size()) = P_.row(last).head(size()).eval();
-    P_.col(at).head(size()) = P_.row(at).head(size()).transpose().eval();
+    // Rows first, then columns: neither overwrites what the other reads, but for P_(at, at).
+    for (int i = 0; i < size(); ++i) P_(at, i) = P_(last, i);
+    for (int i = 0; i < size(); ++i) P_(i, at) = P_(at, i);
     P_(at, at) = variance;
     entries_[static_cast<std::size_t>(at - fixed)] = entries_.back();
   }

@@ -95,6 +95,8 @@ void PppFilter::begin_solution(GpsTime t) {
   std::vector<SatelliteReport> reports = std::move(solution_.satellites);  // reuses its memory
   solution_ = {};
   solution_.satellites = std::move(reports);
+  solution_.satellites.reserve(usual_satellites);
+  measured_.reserve(usual_satellites);
   solution_.time = t;
   solution_.restarts = restarts_;
 }

@@ -110,6 +110,7 @@ void RobustUpdate::distrust_phases(FilterState& state, std::vector<Row>& rows) {
 
 void RobustUpdate::apply(FilterState& state, std::vector<Row>& rows) {
   before_ = state;
+  variance_factors_.reserve(rows.capacity());
   variance_factors_.assign(rows.size(), 1.0);
   apply_once(state, rows);
   if (worst(state, rows) != nullptr) reject_together(state, rows);

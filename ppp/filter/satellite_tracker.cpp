@@ -67,6 +67,8 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
   const double speed = state.x().segment<3>(S::velocity).norm();
   tracked_.clear();
   phase_steps_.clear();
+  tracked_.reserve(usual_satellites);
+  phase_steps_.reserve(usual_satellites);
   for (Memory& memory : memory_) ++memory.epochs_away;
   for (const Measurement& m : measured) {
     SatelliteReport& report = reports[m.report];

@@ -60,6 +60,7 @@ const FilterState* IntegerFix::resolve(const FilterState& state,
 void IntegerFix::take(const FilterState& state, const std::vector<Tracked>& tracked,
                       const std::vector<Row>& rows) {
   candidates_.clear();
+  candidates_.reserve(usual_satellites);
   const Row* code = nullptr;  // of the same satellite, it comes before the phase
   for (const Row& row : rows) {
     const Tracked& t = tracked[row.tracked];
@@ -90,6 +91,7 @@ void IntegerFix::take(const FilterState& state, const std::vector<Tracked>& trac
 // The most precise ambiguity of each system is the one that the others are differenced against.
 void IntegerFix::choose_references(const FilterState& state) {
   differenced_.clear();
+  differenced_.reserve(usual_satellites);
   const auto P = state.P();
   for (std::size_t begin = 0, end = 0; begin < candidates_.size(); begin = end) {
     const System system = candidates_[begin].satellite.system;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -26,6 +27,7 @@
 #include "msgs/sample.h"
 #include "msgs/visual_motion.h"
 #include "msgs/wheel_speed.h"
+#include "ppp/satellite.h"
 #include "runtime/core/edge.h"
 #include "runtime/vehicle/drivers/gnss_epoch.h"
 #include "runtime/vehicle/graph/stage_specs.h"
@@ -139,6 +141,15 @@ inline constexpr RingSpec<RuntimeReport> health_publisher{stages::health, publis
 // Each stage that is saved has one ring of this capacity to the snapshot thread. Cuts are seconds
 // apart, and a saved state has megabytes.
 inline constexpr std::size_t snapshot_capacity = 1;
+
+// What each slot of a ring holds before it is used: room for buffers that would otherwise grow in a
+// real-time thread.
+template <class T>
+T prototype() {
+  T sample{};
+  if constexpr (std::same_as<T, PppState>) sample.satellites.resize(ppp::usual_satellites);
+  return sample;
+}
 
 // Images and scans that a replay decodes ahead: longer than a hiccup of the disk.
 inline constexpr std::size_t decoded_ahead = 6;

@@ -96,8 +96,8 @@ class Rings {
     if (!has(spec.from) || !has(spec.to) || !met_.contains(spec.needs)) return;
     if (spec.instead_of != nullptr && has(*spec.instead_of)) return;
     runtime::Doorbell* wakes = spec.to.polls ? nullptr : &bell(spec.to);
-    auto ring =
-        std::make_unique<runtime::Edge<T>>(spec.name(), spec.capacity, spec.overflow, wakes);
+    auto ring = std::make_unique<runtime::Edge<T>>(spec.name(), spec.capacity, spec.overflow, wakes,
+                                                   rings::prototype<T>());
     all_.push_back(ring.get());
     made_.emplace(&spec, Made{std::move(ring)});
   }

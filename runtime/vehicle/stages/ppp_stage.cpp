@@ -15,9 +15,6 @@ namespace {
 
 constexpr auto relaxed = std::memory_order_relaxed;
 
-// Satellites that a receiver of all systems sees at most; more is no error.
-constexpr std::size_t usual_satellites = 64;
-
 // A live receiver without precise products adds what it receives to the broadcast ephemeris.
 std::optional<ppp::CorrectedEphemeris> grows(const ppp::PppSetup& setup) {
   if (!setup.live() || setup.precise()) return {};
@@ -40,8 +37,8 @@ PppStage::PppStage(Rings& rings, std::shared_ptr<const ppp::PppSetup> setup, dou
       states_(outputs(rings::ppp_publisher)),
       fixes_(outputs(rings::ppp_fusion, rings::ppp_fix_publisher)),
       track_(antenna) {
-  state_.satellites.reserve(usual_satellites);
-  free_state_.satellites.reserve(usual_satellites);
+  state_.satellites.reserve(ppp::usual_satellites);
+  free_state_.satellites.reserve(ppp::usual_satellites);
   held_.reserve(rings::mapmatch_ppp.capacity);
 }
 
@@ -220,8 +217,14 @@ void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
   look_at_ionosphere(epoch.epoch.time);
   count(state_);
   use_.note(epoch.available, state_.status == PppStatus::none ? "no position" : nullptr);
-  std::erase_if(sent_, [&](const Sent& s) { return s.state.available <= epoch.available; });
-  sent_.push_back({state_, free_state_.status != PppStatus::none, ppp::to_fix(free_state_)});
+  while (!sent_.empty() && sent_.front().state.available <= epoch.available) {
+    spare_ = std::move(sent_.front());
+    sent_.erase(sent_.begin());
+  }
+  spare_.state = state_;
+  spare_.has_fix = free_state_.status != PppStatus::none;
+  spare_.fix = ppp::to_fix(free_state_);
+  sent_.push_back(std::move(spare_));
   sent_.back().fix.increment = ppp::increment_of(filter_.map_free());
   send(sent_.back(), stop);
   use_feedback(epoch.available);
@@ -277,7 +280,7 @@ void PppStage::archive(Archive& ar, Time cut) {
 
 std::size_t PppStage::saved_bytes() const {
   return ppp::MapAidedFilter::largest_archive + AntennaTrack::largest_archive +
-         2 * usual_satellites * sizeof(PppSatellite) + 4096;
+         2 * ppp::usual_satellites * sizeof(PppSatellite) + 4096;
 }
 
 std::vector<RefusalCount> PppStage::refusals() {

@@ -97,7 +97,8 @@ class PppStage final : public GraphStage {
   Outputs<GnssFix> fixes_;
   UseWatch use_{stages::ppp.name, "epochs", Watchdog::patience(stages::ppp)};
   PppState state_, free_state_;    // of the last epoch, to reuse their memory
-  std::vector<Sent> sent_;         // those that were not yet available at the last epoch
+  std::vector<Sent> sent_;         // those that were not yet available at the last epoch, in order
+  Sent spare_;                     // the memory of an older one, for the next
   std::vector<MapFeedback> held_;  // not yet used
   AntennaTrack track_;
   Time last_epoch_ = Time::min();  // its stamp

@@ -57,12 +57,15 @@ TEST(DoctorCommand, AsksForWhatTheConfigurationSays) {
 
 TEST(DoctorCommand, SaysHowMuchMemoryThreadsAndRingsHoldForImagesOfTheDescribedCamera) {
   const TemporaryFolder folder;
-  const std::string file = (folder.path() / "doctor.json").string();
-  const ProcessResult result = run({maploop_command(), "doctor", "--json", file, "--set",
-                                    "vehicle.camera.width=1000", "vehicle.camera.height=500"});
+  const std::string json_file = (folder.path() / "doctor.json").string();
+  const std::string car = (folder.path() / "a.toml").string();
+  std::ofstream(car) << "[vehicle.camera]\nwidth = 1000\nheight = 500\nfx = 700.0\nfy = 700.0\n"
+                        "cx = 500.0\ncy = 250.0\nbaseline = 0.5\n";
+  const ProcessResult result =
+      run({maploop_command(), "doctor", "--realtime", "--json", json_file, "--config", car});
   ASSERT_EQ(result.status, 0) << result.error;
   EXPECT_NE(result.out.find("images of 500000 pixels"), std::string::npos);
-  const json memory = read_json(file)["memory"];
+  const json memory = read_json(json_file)["memory"];
   double bytes = 0.0;
   bool ring = false;
   for (const json& part : memory["parts"]) {

@@ -86,7 +86,7 @@ TEST(DriveAllocation, PrecisePointPositioningAllocatesNothing) {
                                            "gnss/riverside_drive/COM3_200712.obs.gz",
                                        VehicleConfig{}),
                         "riverside/riverside_from_2021_drives.osm.pbf", 60.0,
-                        std::chrono::seconds(60), std::chrono::seconds(180)));
+                        std::chrono::seconds(60), std::chrono::seconds(240)));
 }
 
 }  // namespace
