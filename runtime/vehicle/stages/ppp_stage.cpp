@@ -135,9 +135,8 @@ void PppStage::say_corrections() {
   counts_.correction_age.store(state_.correction_age.value_or(-1.0), relaxed);
   const std::string what = wrong_with_corrections();
   if (what.empty()) return;
-  for (PppState* state : {&state_, &free_state_}) {
+  for (PppState* state : {&state_, &free_state_})
     state->message += (state->message.empty() ? "" : "; ") + what;
-  }
 }
 
 std::string PppStage::wrong_with_corrections() const {
