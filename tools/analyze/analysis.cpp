@@ -18,7 +18,7 @@ namespace {
 using vehicle::StageSpec;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double driver_margin = 3.0;  // on the mean processor time of a step
+constexpr double driver_margin = 3.0;  // on the largest mean of a second
 
 // Returns nullptr if there is none of that name.
 const LatencySummary* find(const std::vector<LatencySummary>& all, std::string_view name) {
@@ -64,7 +64,9 @@ Thread thread_of(const ThreadHealth& health, const StageSpec& stage,
   } else {
     p.from_mean = true;
     p.execution.observed = unknown;
-    p.execution.bound = driver_margin * 1e3 * health.cpu / steps;
+    const auto step = run.step_cpu.find(health.name);
+    const double mean = step != run.step_cpu.end() ? step->second : health.cpu / steps;
+    p.execution.bound = driver_margin * 1e3 * mean;
   }
   const auto response =
       std::find_if(run.threads.begin(), run.threads.end(),
@@ -99,11 +101,11 @@ std::string remedy(const std::vector<Task>& tasks, std::size_t i, int cpus, cons
   };
   if (p.execution.bound > p.deadline)
     return fmt::format("its own step takes up to {:.3f} ms", p.execution.bound);
-  if (kept(tasks, cpus, 0.0)) {
+  if (kept(tasks, cpus, 0.0) || p.execution.bound + a.blocking > p.deadline) {
     return fmt::format(
-        "the kernel wakes threads up to {:.3f} ms late, without which it would be kept: see "
+        "its step takes up to {:.3f} ms, and the kernel wakes threads up to {:.3f} ms late: see "
         "maploop doctor",
-        a.blocking);
+        p.execution.bound, a.blocking);
   }
   std::vector<Task> first = tasks;
   for (const Task& task : tasks) first[i].priority = std::max(first[i].priority, task.priority + 1);
