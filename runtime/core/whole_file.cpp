@@ -39,12 +39,18 @@ void sync_folder(const std::filesystem::path& file) {
   ::close(descriptor);
 }
 
+// The file in progress is no link: somebody else could have put one there, to have another file
+// overwritten.
+int flags_of(const std::filesystem::path& written, const std::filesystem::path& file) {
+  return O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | (written != file ? O_NOFOLLOW : 0);
+}
+
 }  // namespace
 
 WholeFile::WholeFile(const std::filesystem::path& file)
     : file_(is_replaced(file) ? behind_links(file) : file),
       written_(file_.string() + (is_replaced(file_) ? ".part" : "")),
-      descriptor_(open(written_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)),
+      descriptor_(open(written_.c_str(), flags_of(written_, file_), 0666)),
       buffer_(std::make_unique<std::array<char, chunk_bytes>>()) {
   if (descriptor_ < 0) fail(errno);
 }

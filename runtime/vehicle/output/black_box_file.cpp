@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little);
 static_assert(sizeof(Head) == 48 && sizeof(BlockHead) == 32);
 
 constexpr std::uint64_t fewest_blocks = 16;
-constexpr mode_t for_its_owner = 0644;
+constexpr mode_t for_its_owner = 0600;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
   throw std::runtime_error(fmt::format("the black box '{}': {}", path.string(), why));

@@ -62,6 +62,14 @@ TEST_F(WholeFileTest, ALinkStaysALink) {
   EXPECT_EQ(content(file_), "text");
 }
 
+TEST_F(WholeFileTest, AForeignLinkInPlaceOfTheFileInProgressIsNotFollowed) {
+  const auto precious = folder_.path() / "precious";
+  std::ofstream(precious) << "kept";
+  std::filesystem::create_symlink("precious", folder_.path() / "a.txt.part");
+  EXPECT_THAT(error_of([&] { write_whole_file(file_, "text"); }), HasSubstr("a.txt"));
+  EXPECT_EQ(content(precious), "kept");
+}
+
 TEST_F(WholeFileTest, ADeviceIsWrittenAsItIs) {
   write_whole_file("/dev/null", "text");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
