@@ -5,6 +5,7 @@
 
 #include "runtime/vehicle/faults/fault.h"
 #include "tools/report/sections.h"
+#include "tools/web/events.h"
 
 namespace maploop::report {
 namespace {
@@ -12,18 +13,6 @@ namespace {
 using web::Event;
 using Level = Event::Level;
 using Events = std::vector<Event>;
-
-// Adds a moment to the event before, if that is of the same kind and at most `gap` seconds old.
-Event& extend(Events& list, double second, double gap, const Event& kind) {
-  const bool follows = !list.empty() && list.back().section == kind.section &&
-                       list.back().level == kind.level && second - list.back().to <= gap;
-  if (!follows) {
-    list.push_back(kind);
-    list.back().from = second;
-  }
-  list.back().to = second;
-  return list.back();
-}
 
 double drive_second(const Scene& scene, double second) {
   return scene.second(scene.report.result.begin) + second;
@@ -164,8 +153,7 @@ std::vector<Event> events(const Scene& scene, const profile::Profile& times) {
   add_roads_left(scene, all);
   add_epochs_without_position(scene, all);
   add_misses(scene, times, all);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Event& a, const Event& b) { return a.from < b.from; });
+  web::sort_by_time(all);
   return all;
 }
 
