@@ -22,6 +22,8 @@ export class MapView {
   private east = 0; // of the middle
   private north = 0;
   private scale = 1; // px a metre
+  private width = 0; // px, of the canvas when it was measured; asking it for each point would take most of the time
+  private height = 0;
   private readonly fingers = new Map<number, PointerEvent>();
   private waiting = false;
 
@@ -42,15 +44,34 @@ export class MapView {
   }
 
   x(east: number): number {
-    return this.canvas.clientWidth / 2 + (east - this.east) * this.scale;
+    return this.width / 2 + (east - this.east) * this.scale;
   }
 
   y(north: number): number {
-    return this.canvas.clientHeight / 2 - (north - this.north) * this.scale;
+    return this.height / 2 - (north - this.north) * this.scale;
   }
 
   metres(length: number): number {
     return length * this.scale;
+  }
+
+  shows(east: number, north: number): boolean {
+    const [x, y] = [this.x(east), this.y(north)];
+    return x >= 0 && x <= this.width && y >= 0 && y <= this.height;
+  }
+
+  // The name of the road at a place of the canvas, if there is one.
+  roadAt(x: number, y: number): string {
+    let [nearest, name] = [10, ""]; // px
+    for (const road of this.roads)
+      for (let i = 1; i < road.x.length; ++i) {
+        const [ax, ay] = [this.x(road.x[i - 1]!) - x, this.y(road.y[i - 1]!) - y];
+        const [dx, dy] = [this.x(road.x[i]!) - x - ax, this.y(road.y[i]!) - y - ay];
+        const share = Math.min(Math.max(-(ax * dx + ay * dy) / (dx * dx + dy * dy || 1), 0), 1);
+        const apart = Math.hypot(ax + share * dx, ay + share * dy);
+        if (apart < nearest) [nearest, name] = [apart, road.name];
+      }
+    return name;
   }
 
   centre(east: number, north: number): void {
@@ -73,8 +94,8 @@ export class MapView {
   fit(): void {
     const box = boxOf(this.lines);
     if (!box) return;
-    const width = Math.max(this.canvas.clientWidth, 1);
-    const height = Math.max(this.canvas.clientHeight, 1);
+    this.measure();
+    const [width, height] = [Math.max(this.width, 1), Math.max(this.height, 1)];
     this.east = (box.west + box.east) / 2;
     this.north = (box.south + box.north) / 2;
     const metres = 20; // at least
@@ -93,10 +114,15 @@ export class MapView {
     });
   }
 
+  private measure(): void {
+    [this.width, this.height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+  }
+
   private draw(): void {
     const { canvas, context } = this;
     const ratio = window.devicePixelRatio || 1;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    this.measure();
+    const { width, height } = this;
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
@@ -127,11 +153,15 @@ export class MapView {
 
   dots(east: Numbers, north: Numbers): void {
     const { context } = this;
+    let [last_x, last_y] = [NaN, NaN];
     for (let i = 0; i < east.length; ++i) {
       const [e, n] = [east[i], north[i]];
       if (e == null || n == null) continue;
+      const [x, y] = [this.x(e), this.y(n)];
+      if (Math.hypot(x - last_x, y - last_y) < 0.5) continue; // it is not seen beside the last one
+      [last_x, last_y] = [x, y];
       context.beginPath();
-      context.arc(this.x(e), this.y(n), 2.5, 0, 2 * Math.PI);
+      context.arc(x, y, 2.5, 0, 2 * Math.PI);
       context.fill();
     }
   }
@@ -139,17 +169,18 @@ export class MapView {
   stroke(east: Numbers, north: Numbers): void {
     const { context } = this;
     context.beginPath();
-    let pen = false;
+    let [pen, last_x, last_y] = [false, 0, 0];
     for (let i = 0; i < east.length; ++i) {
       const [e, n] = [east[i], north[i]];
       if (e == null || n == null) {
         pen = false;
-      } else if (pen) {
-        context.lineTo(this.x(e), this.y(n));
-      } else {
-        context.moveTo(this.x(e), this.y(n));
-        pen = true;
+        continue;
       }
+      const [x, y] = [this.x(e), this.y(n)];
+      if (pen && i + 1 < east.length && Math.hypot(x - last_x, y - last_y) < 0.5) continue; // it is not seen
+      if (pen) context.lineTo(x, y);
+      else context.moveTo(x, y);
+      [pen, last_x, last_y] = [true, x, y];
     }
     context.stroke();
   }

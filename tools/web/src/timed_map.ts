@@ -27,10 +27,16 @@ export class TimedMap {
     button(buttons, "+", "Nearer", () => this.view.zoom(1.5));
     button(buttons, "−", "Farther", () => this.view.zoom(1 / 1.5));
     button(buttons, "⤢", "Show the whole way", () => this.view.fit());
-    canvas.addEventListener("pointermove", (e) => {
-      const time = e.buttons === 0 ? this.timeAt(e.offsetX, e.offsetY) : undefined;
+    const moveTo = (e: MouseEvent) => {
+      const time = this.timeAt(e.offsetX, e.offsetY);
       if (time !== undefined) timeline!.change({ at: time });
+    };
+    canvas.addEventListener("pointermove", (e) => {
+      if (e.buttons !== 0) return;
+      moveTo(e);
+      canvas.title = this.view.roadAt(e.offsetX, e.offsetY);
     });
+    canvas.addEventListener("click", moveTo); // of a finger
   }
 
   // The tracks are seen in the stretch of time that is shown.
@@ -60,16 +66,28 @@ export class TimedMap {
 
   private follow(): void {
     const { from, to } = this.timeline!.view;
-    if (from === this.shown[0] && to === this.shown[1]) return this.view.redraw();
+    if (from === this.shown[0] && to === this.shown[1]) return this.keepInSight();
     this.shown = [from, to];
     this.refresh(true);
   }
 
-  drawMarkers(context: CanvasRenderingContext2D): void {
-    for (const { time, x, y, token } of this.tracks) {
-      if (!this.timeline || !time?.length) continue;
+  // Where the map was moved or zoomed, it goes with the cursor.
+  private keepInSight(): void {
+    const place = this.placesAtCursor()[0];
+    if (place && !this.view.shows(place.east, place.north)) this.view.centre(place.east, place.north);
+    this.view.redraw();
+  }
+
+  private placesAtCursor(): { east: number; north: number; token: string }[] {
+    return this.tracks.flatMap(({ time, x, y, token }) => {
+      if (!this.timeline || !time?.length) return [];
       const [east, north] = [between(time, x, this.timeline.view.at), between(time, y, this.timeline.view.at)];
-      if (east === null || north === null) continue;
+      return east === null || north === null ? [] : [{ east, north, token }];
+    });
+  }
+
+  drawMarkers(context: CanvasRenderingContext2D): void {
+    for (const { east, north, token } of this.placesAtCursor()) {
       context.beginPath();
       context.arc(this.view.x(east), this.view.y(north), 6, 0, 2 * Math.PI);
       context.fillStyle = ink(token);
