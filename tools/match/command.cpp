@@ -76,6 +76,7 @@ int match_track(MatchOptions options) {
   const mapmatch::RuleBases rules =
       mapmatch::read_rule_bases(options.rules.empty() ? mapmatch::default_rules() : options.rules);
   match::MatchedTrack track;
+  track.name = options.track.filename().string();
   track.fixes = match::read_track(options.track, options.track_options);
   mapmatch::MatchParameters parameters;
   match::apply_settings(options.set, parameters);
@@ -118,7 +119,7 @@ void add_match(CLI::App& app, Command& command) {
       ->check(writable_file());
   sub->add_option("--gpx", options->gpx, "Write the matched positions as GPX")
       ->check(writable_file());
-  sub->add_option("--html", options->html, "Write a page with map, fixes, candidates and rules")
+  sub->add_option("--html", options->html, "Write a page with map, streets, reasons and doubts")
       ->check(writable_file());
   sub->add_option("--sigma", options->track_options.sigma,
                   "Metres an axis, of positions whose accuracy the track does not say")

@@ -1,147 +1,131 @@
-#include <algorithm>
-#include <map>
+#include <fmt/format.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "mapmatch/reasons.h"
-#include "msgs/frames.h"
 #include "tools/evaluate/text_file.h"
-#include "tools/match/match_output.h"
-#include "tools/match/road_lines.h"
-#include "tools/web/bundle.h"
+#include "tools/match/decision_data.h"
+#include "tools/match/driven_streets.h"
+#include "tools/match/map_doubts.h"
+#include "tools/match/match_summary.h"
+#include "tools/web/html.h"
+#include "tools/web/page.h"
+#include "tools/web/table.h"
 
 namespace maploop::match {
 namespace {
 
-using nlohmann::json;
+using web::Line;
+using web::Plot;
 
-constexpr double surroundings = 250.0;       // m, margin around the track that is drawn
-constexpr std::size_t shown_candidates = 8;  // for each fix
-
-// Returns the value rounded to a fraction of one.
-double rounded(double value, double fractions) {
-  return std::round(value * fractions) / fractions;
+std::string percent(std::size_t part, std::size_t all) {
+  return all == 0
+             ? "-"
+             : web::figure(100.0 * static_cast<double>(part) / static_cast<double>(all), 1, " %");
 }
 
-json point(const Eigen::Vector2d& p) {
-  return {rounded(p.x(), 100.0), rounded(p.y(), 100.0)};
+std::string summary_table(const MatchedTrack& track, const mapmatch::RoadNetwork& network,
+                          const std::vector<DrivenStreet>& streets) {
+  const MatchSummary s = summary(track, network);
+  const auto row = [&](const std::string& name, std::size_t count, std::size_t all) {
+    return web::Row{name, std::to_string(count), percent(count, all)};
+  };
+  double length = 0.0;
+  for (const DrivenStreet& street : streets) length += street.length;
+  std::vector<web::Row> rows{{"fixes", std::to_string(s.fixes), ""},
+                             row("matched to a road", s.matched, s.fixes),
+                             row("off road: on no road of the map", s.off_road, s.fixes)};
+  for (const auto& [reason, count] : s.unused)
+    rows.push_back(row("not used: " + reason, count, s.fixes));
+  rows.push_back(row("matched with a probability below 0.9", s.doubtful, s.matched));
+  rows.push_back({"driven on roads", web::figure(1e-3 * length, 3, " km"), ""});
+  return web::table({}, rows);
 }
 
-// Returns the links near the track and all candidates; `used` marks the candidates' links.
-json roads_about(const mapmatch::RoadNetwork& network, const mapmatch::Box& box,
-                 std::vector<bool> used) {
-  network.index().visit(box, [&](const mapmatch::IndexedSegment& s) { used[s.link] = true; });
-  json roads = json::object();
-  for (std::uint32_t i = 0; i < network.size(); ++i) {
-    if (!used[i]) continue;
-    json shape = json::array();
-    for (const mapmatch::Vertex& v : network.shape(i)) shape.push_back(point(v.position()));
-    const mapmatch::Link& link = network.link(i);
-    const mapmatch::Road& road = network.road_at(link.first_vertex);
-    const char* direction = link.forward && link.backward ? "" : ", one way";
-    roads[std::to_string(i)] = {
-        {"shape", std::move(shape)},
-        {"rank", static_cast<int>(road.road_class)},
-        {"name", road.name + (road.name.empty() ? "way " : " (way ") + std::to_string(road.way_id) +
-                     ", " + std::string(to_string(road.road_class)) + direction +
-                     (road.name.empty() ? "" : ")")}};
-  }
-  return roads;
+std::string street_table(const std::vector<DrivenStreet>& streets) {
+  if (streets.empty()) return "<p class=\"empty\">No fix was matched to a road.</p>\n";
+  std::vector<web::Row> rows;
+  for (const DrivenStreet& s : streets)
+    rows.push_back({web::escaped(s.name),
+                    web::time_button(s.from, s.to, web::figure(s.from, 1, " s")),
+                    web::figure(s.to, 1, " s"), web::figure(s.length, 0, " m"),
+                    web::figure(s.probability, 3)});
+  return web::table_of_html({"street", "from", "to", "length", "mean P"}, rows);
 }
 
-// Stores each text once.
-class Texts {
- public:
-  int index(const std::string& text) {
-    const auto [found, added] = indices_.emplace(text, static_cast<int>(texts_.size()));
-    if (added) texts_.push_back(text);
-    return found->second;
-  }
-  const std::vector<std::string>& all() const { return texts_; }
-
- private:
-  std::map<std::string, int> indices_;
-  std::vector<std::string> texts_;
+// The values over time that are plotted, of the fixes that were used.
+struct Series {
+  std::vector<double> second, probability, distance, sigma, speed;
+  bool has_speeds = false;  // of the track itself, else the speed is that of its positions
 };
 
-json candidates_of(const mapmatch::MatchResult& r, const mapmatch::RoadNetwork& network,
-                   const mapmatch::RuleBases& rules, Texts& texts, std::vector<bool>& used) {
-  json candidates = json::array();
-  for (std::size_t i = 0; i < std::min(r.candidate_count, shown_candidates); ++i) {
-    const mapmatch::MatchCandidate& c = r.candidates[i];
-    used[c.link.link] = true;
-    json fired = json::array();
-    for (const auto& [text, weight] : fired_rules(c, rules))
-      if (weight >= 0.005) fired.push_back({texts.index(text), rounded(weight, 100.0)});
-    json why = json::array();
-    for (const std::string& objection : objections(c, network))
-      why.push_back(texts.index(objection));
-    candidates.push_back({{"link", c.link.link},
-                          {"at", point(network.at(c.link, c.along).position)},
-                          {"likelihood", rounded(c.likelihood, 10.0)},
-                          {"p", rounded(c.probability, 1e4)},
-                          {"objections", std::move(why)},
-                          {"rules", std::move(fired)}});
-  }
-  return candidates;
-}
-
-json fixes_of(const MatchedTrack& track, const mapmatch::RoadNetwork& network,
-              const mapmatch::RuleBases& rules, Texts& texts, std::vector<bool>& used) {
-  json fixes = json::array();
-  for (std::size_t i = 0; i < track.fixes.size(); ++i) {
+Series series_of(const MatchedTrack& track, const mapmatch::RoadNetwork& network) {
+  Series s;
+  Eigen::Vector2d last = Eigen::Vector2d::Zero();
+  for (const std::size_t i : used_fixes(track)) s.has_speeds |= std::isfinite(track.fixes[i].speed);
+  for (const std::size_t i : used_fixes(track)) {
+    const mapmatch::VehicleFix& fix = track.fixes[i];
     const mapmatch::MatchResult& r = track.results[i];
-    if (r.refusal == mapmatch::FixRefusal::not_finite) continue;
-    const bool refused = r.refusal != mapmatch::FixRefusal::none;
-    json fix{{"t", to_seconds(track.fixes[i].stamp - track.fixes.front().stamp)},
-             {"place", point(network.to_local(track.fixes[i].position))},
-             {"phase", refused ? "not used" : to_string(r.phase)},
-             {"explanation", explanation(r, network)},
-             {"candidates", json::array()}};
-    if (!refused) fix["candidates"] = candidates_of(r, network, rules, texts, used);
-    if (r.on_road && !refused) {
-      fix["matched"] = point(r.point.position);
-      fix["p"] = rounded(r.probability, 1e4);
-    }
-    fixes.push_back(std::move(fix));
+    const Eigen::Vector2d place = network.to_local(fix.position);
+    const double second = to_seconds(fix.stamp - track.fixes.front().stamp);
+    const double of_positions =
+        s.second.empty() ? mapmatch::unknown : (place - last).norm() / (second - s.second.back());
+    s.second.push_back(second);
+    s.probability.push_back(r.on_road ? r.probability : mapmatch::unknown);
+    s.distance.push_back(r.on_road ? (r.point.position - place).norm() : mapmatch::unknown);
+    s.sigma.push_back(std::sqrt(0.5 * fix.covariance.trace()));
+    s.speed.push_back(3.6 * (s.has_speeds ? fix.speed : of_positions));
+    last = place;
   }
-  return fixes;
+  return s;
 }
 
-// Inside a script element "</" would end it, and "<!--" would hide its end, so that every "<" is
-// escaped.
-std::string script_safe(std::string text) {
-  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
-    text.replace(at, 1, "\\u003c");
-  return text;
+Line line_of(const char* name, const Series& s, const std::vector<double>& values,
+             Line::Look look = Line::Look::solid) {
+  const auto kept = web::thinned(values.size(), {&values});
+  return {name, web::chosen(s.second, kept), web::chosen(values, kept), look};
+}
+
+std::vector<Plot> plots_of(const MatchedTrack& track, const mapmatch::RoadNetwork& network) {
+  const Series s = series_of(track, network);
+  std::vector<Plot> plots{
+      {"Probability of the road", "s", "P", {line_of("of the matched road", s, s.probability)}},
+      {"Distance to the road",
+       "s",
+       "m",
+       {line_of("to the matched point", s, s.distance),
+        line_of("sigma of the fix", s, s.sigma, Line::Look::dashed)}},
+      {"Speed",
+       "s",
+       "km/h",
+       {line_of(s.has_speeds ? "of the track" : "from its positions", s, s.speed)}}};
+  for (Plot& plot : plots) plot.over_time = true;
+  return plots;
 }
 
 }  // namespace
 
 void write_match_html(const std::filesystem::path& file, const MatchedTrack& track,
                       const mapmatch::RoadNetwork& network, const mapmatch::RuleBases& rules) {
-  Texts texts;
-  std::vector<bool> used(network.size(), false);
-  std::vector<Eigen::Vector2d> places;
-  for (const mapmatch::VehicleFix& fix : track.fixes)
-    places.push_back(network.to_local(fix.position));
-  json data{{"fixes", fixes_of(track, network, rules, texts, used)},
-            {"roads", roads_about(network, box_about(places, surroundings), used)}};
-  data["texts"] = texts.all();
-  const std::string_view script = web::match_script();
-  // Names in a map may contain anything, including invalid UTF-8.
-  const std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
-  evaluation::write_text(
-      file,
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<title>maploop match</title>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<style>" +
-          std::string(web::match_style()) +
-          "</style></head><body>\n<main id=\"map\"></main>\n<aside id=\"panel\">" +
-          (script.empty() ? "No map: this maploop was built without npm."
-                          : "This map needs JavaScript.") +
-          "</aside>\n<script type=\"application/json\" id=\"match\">" + script_safe(text) +
-          "</script>\n<script>" + std::string(script) + "</script>\n</body></html>\n");
+  const std::vector<DrivenStreet> streets = driven_streets(track, network);
+  web::Page page("Roads driven" + (track.name.empty() ? "" : ": " + track.name));
+  page.add_contents()
+      .add(summary_table(track, network, streets))
+      .add_timeline(map_doubts(track, network))
+      .add_place("match", decision_data(track, network, rules))
+      .add("<div class=\"plots lists\"><section>\n")
+      .add(web::heading("Streets"))
+      .add(web::paragraph("In the order in which they were driven."))
+      .add(street_table(streets))
+      .add("</section><section>\n")
+      .add(web::heading("Doubts"))
+      .add(web::paragraph("Where the drive and the map did not fit, and fixes that were not used."))
+      .add_events()
+      .add("</section></div>\n")
+      .add(web::heading("Over time"))
+      .add(plots_of(track, network));
+  evaluation::write_text(file, page.text());
 }
 
 }  // namespace maploop::match

@@ -15,6 +15,7 @@ namespace maploop::match {
 struct MatchedTrack {
   Track fixes;
   std::vector<mapmatch::MatchResult> results;  // one for each fix
+  std::string name{};                          // of its file
 };
 
 // Writes
@@ -29,8 +30,9 @@ void write_match_geojson(const std::filesystem::path& file, const MatchedTrack& 
 // Writes the matched positions as a track.
 void write_match_gpx(const std::filesystem::path& file, const MatchedTrack& track,
                      const mapmatch::RoadNetwork& network);
-// Writes a page with the network around the track, the fixes and their links; a click on a fix
-// shows its candidates, their rules and reasons. The page needs no network connection.
+// Writes a page that needs no network connection: what became of the fixes, the streets in the
+// order of the drive, doubts about the map, and, with one cursor, a map, plots over time, and the
+// reasons of each decision.
 void write_match_html(const std::filesystem::path& file, const MatchedTrack& track,
                       const mapmatch::RoadNetwork& network, const mapmatch::RuleBases& rules);
 

@@ -13,8 +13,4 @@ std::string_view page_style();
 std::string_view dashboard_script();
 std::string_view dashboard_style();
 
-// For the page of `maploop match`.
-std::string_view match_script();
-std::string_view match_style();
-
 }  // namespace maploop::web

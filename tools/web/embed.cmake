@@ -1,7 +1,7 @@
 # cmake [-DFOLDER=<dist>] -DSOURCES=<web> -DOUTPUT=<bundle.cpp> -P embed.cmake: the bundles as strings of a C++
 # source. Without a folder that npm has made there are no scripts; styles are then as they were written.
 set(source "// Made by tools/web/embed.cmake.\n#include \"tools/web/bundle.h\"\n\nnamespace maploop::web {\n\n")
-foreach(kind page dashboard match)
+foreach(kind page dashboard)
   foreach(part script:js style:css)
     string(REPLACE ":" ";" part ${part})
     list(GET part 0 name)

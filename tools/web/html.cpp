@@ -51,6 +51,13 @@ std::string folded(std::string_view summary, std::string_view html) {
   return fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(summary), html);
 }
 
+std::string time_button(double from, double to, std::string_view text) {
+  return fmt::format(
+      "<button type=\"button\" title=\"Move the cursor there\" data-from=\"{:.7g}\" "
+      "data-to=\"{:.7g}\">{}</button>",
+      from, to, escaped(text));
+}
+
 std::string image(const std::vector<std::uint8_t>& bytes, std::string_view format, int width) {
   return fmt::format("<img style='max-width:100%' width='{}' src='data:image/{};base64,{}'>", width,
                      format, base64(bytes));

@@ -5,12 +5,15 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "tests/mapmatch/simulated_drive.h"
 #include "tests/mapmatch/small_map.h"
 #include "tests/support/real_data.h"
+#include "tools/match/decision_data.h"
 #include "tools/match/match_score.h"
+#include "tools/match/match_summary.h"
 
 namespace maploop::match {
 namespace {
@@ -86,10 +89,36 @@ TEST_F(MatchOutput, ThePageNeedsNothingElseAndNoNameEndsItsScript) {
   const std::string page = read(folder.path() / "a.html");
   for (const char* fetched : {"<script src", "<img", "<link", "@import", "url(http"})
     EXPECT_EQ(page.find(fetched), std::string::npos) << fetched;
-  std::size_t ends = 0;
-  for (std::size_t at = 0; (at = page.find("</script>", at)) != std::string::npos; ++at) ++ends;
-  EXPECT_EQ(ends, 2U) << "of the data and of the script";
+  for (std::size_t at = 0; (at = page.find("</script>", at)) != std::string::npos; ++at)
+    EXPECT_NE(page[at - 1], '"') << "a name ended a script";
   EXPECT_THAT(page, HasSubstr("way 10"));
+}
+
+TEST_F(MatchOutput, ThePageHasTheReasonsOfEachFixThatWasUsedAndEachSentenceOnce) {
+  const auto data = decision_data(track, network, rules);
+  const std::size_t used = track.fixes.size() - 1;
+  for (const char* list :
+       {"time", "x", "y", "matched_x", "p", "phase", "explanation", "candidates"})
+    EXPECT_EQ(data[list].size(), used) << list;
+  const auto texts = data["texts"].get<std::vector<std::string>>();
+  EXPECT_EQ(std::set<std::string>(texts.begin(), texts.end()).size(), texts.size());
+  EXPECT_THAT(texts[data["explanation"][5].get<std::size_t>()], HasSubstr("(way 10), P "));
+  EXPECT_EQ(texts[data["explanation"].back().get<std::size_t>()], "no road near");
+  EXPECT_TRUE(data["matched_x"].back().is_null());
+  const auto& candidate = data["candidates"][5][0];
+  EXPECT_THAT(texts[candidate[7][0].get<std::size_t>()], HasSubstr(": if "));
+  EXPECT_THAT(data["roads"][candidate[0].get<std::size_t>()]["name"].get<std::string>(),
+              HasSubstr("way 10, "));
+}
+
+TEST_F(MatchOutput, TheSummaryCountsEachFixOnce) {
+  const MatchSummary s = summary(track, network);
+  EXPECT_EQ(s.fixes, track.fixes.size());
+  EXPECT_EQ(s.matched, track.fixes.size() - 2);
+  EXPECT_EQ(s.off_road, 0U) << "a place outside of the map is not off road";
+  EXPECT_THAT(s.unused, ::testing::ElementsAre(::testing::Pair("not later than the fix before", 1U),
+                                               ::testing::Pair("outside of the map", 1U)));
+  EXPECT_LE(s.doubtful, s.matched);
 }
 
 TEST_F(MatchOutput, AFolderThatIsNotThereIsNamed) {

@@ -1,11 +1,10 @@
-// maploop's match page and its dashboard as people see them.
+// maploop's dashboard as people see it.
 //
 //   node browser_test.mjs MAPLOOP PICTURES CHROMIUM
 import assert from "node:assert/strict";
-import { spawn, spawnSync } from "node:child_process";
+import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
-import { pathToFileURL } from "node:url";
 import { after, before, test } from "node:test";
 
 import { assertAccessible } from "./accessible.mjs";
@@ -52,34 +51,6 @@ async function open(viewport, url) {
   await page.goto(url);
   return page;
 }
-
-test("the match page shows roads, fixes and the candidates of a fix, by mouse and by key", async (t) => {
-  const file = join(pictures, "match.html");
-  const data = process.env.MAPLOOP_DATA;
-  const map = join(data, "maps/karlsruhe_2012-04.osm.pbf");
-  if (!existsSync(map)) return t.skip(`SKIPPED, NOT TESTED: there is no ${map}`);
-  const match = spawnSync(maploop, ["match", map, join(data, "kitti_odometry/oxts/04.csv.gz"), "--html", file]);
-  assert.equal(match.status, 0, String(match.stderr));
-  for (const [name, viewport] of Object.entries({ desktop, phone })) {
-    const page = await open(viewport, pathToFileURL(file).href);
-    page.on("request", (request) => assert.fail(`the page asks for ${request.url()}`));
-    const canvas = page.locator("#map canvas");
-    await canvas.waitFor(patience);
-    assert.ok(await canvas.evaluate(isDrawn));
-    await page.keyboard.press("ArrowRight");
-    await page.getByText(/^Fix 1 of \d+/).waitFor(patience);
-    assert.ok((await page.locator(".rule").count()) > 0, "the rules of its candidates");
-    await page.getByRole("button", { name: "next" }).click();
-    await page.getByText(/^Fix 2 of/).waitFor(patience);
-    const box = await canvas.boundingBox();
-    for (let x = 0.1; x < 0.9; x += 0.02) await page.mouse.click(box.x + x * box.width, box.y + 0.5 * box.height);
-    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-    assert.ok(overflow <= 0, `${overflow} px beyond the edge of the ${name}`);
-    await page.screenshot({ path: join(pictures, `match-${name}.png`) });
-    await assertAccessible(page, `the match page on the ${name}`);
-    await page.close();
-  }
-});
 
 test("the dashboard follows a replay, controls it, and survives restarts of either side", async () => {
   let dashboard = start("dashboard", "--port", "0");

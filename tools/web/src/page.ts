@@ -11,6 +11,8 @@ import { element } from "./dom";
 import { Positions } from "./gnss";
 import type { Satellites, Solutions } from "./gnss_data";
 import { linkedChart } from "./linked_charts";
+import { MatchViews, type Decisions } from "./match";
+import { linkMoments } from "./moments";
 import { themeSwitch, tokensOf } from "./palette";
 import type { Plot } from "./plot";
 import { Readout } from "./readout";
@@ -57,14 +59,14 @@ async function drawAll(plots: Plot[], timeline?: Timeline, readout?: Readout): P
   }
 }
 
-// The time that all pictures over time cover; nothing if there is none.
+// The time that all pictures over time cover, a second at least; nothing if there is none.
 function wholeTime(plots: Plot[]): [number, number] | undefined {
   let [first, last] = [Infinity, -Infinity];
   for (const { over_time, lines, bands = [] } of plots)
     for (const { x } of over_time ? [...lines, ...bands] : [])
       for (const end of [x[0], x[x.length - 1]])
         if (end != null) [first, last] = [Math.min(first, end), Math.max(last, end)];
-  return first < last ? [first, last] : undefined;
+  return first <= last ? [first, Math.max(last, first + 1)] : undefined;
 }
 
 async function drawPage(): Promise<void> {
@@ -83,8 +85,11 @@ async function drawPage(): Promise<void> {
     timeline.addEvents(document.getElementById("events")!);
   });
   if (!timeline) return drawAll(plots);
-  const readout = new Readout(document.getElementById("readout")!, timeline);
-  show<Solutions>("positions", (place, data) => new Positions(data, place, timeline!, readout));
+  linkMoments(timeline);
+  show<Decisions>("match", (place, data) => new MatchViews(data, place, timeline!));
+  const values = document.getElementById("readout");
+  const readout = values ? new Readout(values, timeline) : undefined;
+  show<Solutions>("positions", (place, data) => new Positions(data, place, timeline!, readout!));
   await drawAll(plots, timeline, readout);
   show<Satellites>("satellites", (place, data) => new SatelliteViews(data, place, timeline!));
   timeline.change({});

@@ -92,7 +92,8 @@ export class Timeline {
     this.change({ from: this.view.at - half, to: this.view.at + half });
   }
 
-  private goTo({ from, to }: TimelineEvent): void {
+  // Moves the cursor to the beginning of a stretch, and shows the whole of it.
+  goTo({ from, to }: { from: number; to: number }): void {
     const half = Math.max((this.view.to - this.view.from) / 2, to - from);
     const isSeen = from >= this.view.from && to <= this.view.to;
     this.change(isSeen ? { at: from } : { at: from, from: from - half, to: to + half });
