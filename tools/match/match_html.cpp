@@ -35,10 +35,10 @@ std::string summary_table(const MatchedTrack& track, const mapmatch::RoadNetwork
   for (const DrivenStreet& street : streets) length += street.length;
   std::vector<web::Row> rows{{"fixes", std::to_string(s.fixes), ""},
                              row("matched to a road", s.matched, s.fixes),
-                             row("off road: on no road of the map", s.off_road, s.fixes)};
+                             row("off road", s.off_road, s.fixes)};
   for (const auto& [reason, count] : s.unused)
     rows.push_back(row("not used: " + reason, count, s.fixes));
-  rows.push_back(row("matched with a probability below 0.9", s.doubtful, s.matched));
+  rows.push_back(row("matched, P below 0.9", s.doubtful, s.matched));
   rows.push_back({"driven on roads", web::figure(1e-3 * length, 3, " km"), ""});
   return web::table({}, rows);
 }
