@@ -30,7 +30,8 @@ struct Satellite {
   std::uint8_t number = 0;      // as in RINEX 3, 1 to 99
 
   // Orders by system, then by number.
-  auto operator<=>(const Satellite&) const = default;
+  auto operator<=>(const Satellite&) const =
+      default;  // NOLINT(modernize-use-nullptr): none is there
   // Returns the satellite's index in tables, which is unique and below satellite_slots.
   std::size_t slot() const { return static_cast<std::size_t>(system) * 100 + number; }
 };

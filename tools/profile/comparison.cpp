@@ -77,7 +77,7 @@ web::Columns<Compared> columns_of(const Comparison& c, const std::string& figure
 }
 
 web::Columns<Compared> joined(std::vector<web::Columns<Compared>> parts) {
-  web::Columns<Compared> all{{"", "", -20, 0, &Compared::name}};
+  web::Columns<Compared> all{{"", "of", -20, 0, &Compared::name}};
   for (web::Columns<Compared>& part : parts)
     all.insert(all.end(), std::make_move_iterator(part.begin()),
                std::make_move_iterator(part.end()));
