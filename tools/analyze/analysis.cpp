@@ -117,9 +117,10 @@ std::string remedy(const std::vector<Task>& tasks, std::size_t i, int cpus, cons
       for (int cpu = 0; cpu < cpus - 1; ++cpu) task.cpus.push_back(cpu);
     }
     apart[i].cpus = {cpus - 1};
-    if (kept(apart, cpus, a.blocking))
+    if (kept(apart, cpus, a.blocking)) {
       return fmt::format("a CPU of its own would do: cpus = [{}], and the others elsewhere",
                          cpus - 1);
+    }
   }
   constexpr int most_cpus = 16;
   for (int more = cpus + 1; more <= most_cpus; ++more) {

@@ -128,9 +128,10 @@ std::vector<std::size_t> used_fixes(const MatchedTrack& track) {
 json decision_data(const MatchedTrack& track, const mapmatch::RoadNetwork& network,
                    const mapmatch::RuleBases& rules) {
   Decisions decisions(network, rules);
-  for (const std::size_t i : used_fixes(track))
+  for (const std::size_t i : used_fixes(track)) {
     decisions.add(to_seconds(track.fixes[i].stamp - track.fixes.front().stamp), track.fixes[i],
                   track.results[i]);
+  }
   return decisions.data();
 }
 

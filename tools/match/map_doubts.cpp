@@ -98,9 +98,10 @@ class Doubts {
 
   // Calls for each fix that was used.
   void visit(const auto& act) const {
-    for (std::size_t i = 0; i < track_.fixes.size(); ++i)
+    for (std::size_t i = 0; i < track_.fixes.size(); ++i) {
       if (track_.results[i].refusal == FixRefusal::none)
         act(second(i), track_.results[i], track_.fixes[i]);
+    }
   }
 
   static const MatchCandidate* matched_candidate(const MatchResult& r) {

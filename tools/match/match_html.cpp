@@ -46,11 +46,12 @@ std::string summary_table(const MatchedTrack& track, const mapmatch::RoadNetwork
 std::string street_table(const std::vector<DrivenStreet>& streets) {
   if (streets.empty()) return "<p class=\"empty\">No fix was matched to a road.</p>\n";
   std::vector<web::Row> rows;
-  for (const DrivenStreet& s : streets)
+  for (const DrivenStreet& s : streets) {
     rows.push_back({web::escaped(s.name),
                     web::time_button(s.from, s.to, web::figure(s.from, 1, " s")),
                     web::figure(s.to, 1, " s"), web::figure(s.length, 0, " m"),
                     web::figure(s.probability, 3)});
+  }
   return web::table_of_html({"street", "from", "to", "length", "mean P"}, rows);
 }
 

@@ -78,9 +78,10 @@ web::Columns<Compared> columns_of(const Comparison& c, const std::string& figure
 
 web::Columns<Compared> joined(std::vector<web::Columns<Compared>> parts) {
   web::Columns<Compared> all{{"", "of", -20, 0, &Compared::name}};
-  for (web::Columns<Compared>& part : parts)
+  for (web::Columns<Compared>& part : parts) {
     all.insert(all.end(), std::make_move_iterator(part.begin()),
                std::make_move_iterator(part.end()));
+  }
   return all;
 }
 
