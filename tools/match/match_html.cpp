@@ -46,6 +46,7 @@ std::string summary_table(const MatchedTrack& track, const mapmatch::RoadNetwork
 std::string street_table(const std::vector<DrivenStreet>& streets) {
   if (streets.empty()) return "<p class=\"empty\">No fix was matched to a road.</p>\n";
   std::vector<web::Row> rows;
+  rows.reserve(streets.size());
   for (const DrivenStreet& s : streets) {
     rows.push_back({web::escaped(s.name),
                     web::time_button(s.from, s.to, web::figure(s.from, 1, " s")),
