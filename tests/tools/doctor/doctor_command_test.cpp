@@ -19,7 +19,8 @@ json settings_of(Words command) {
   const json report = read_json(file);
   for (const json& setting : report.at("settings")) {
     by_name[setting.at("name")] = setting;
-    EXPECT_EQ(setting.at("verdict") == "granted", setting.at("remedy") == "") << setting;
+    EXPECT_EQ(setting.at("verdict") == "granted", setting.at("remedy").get<std::string>().empty())
+        << setting;
   }
   return by_name;
 }

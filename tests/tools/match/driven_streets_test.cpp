@@ -25,7 +25,7 @@ mapmatch::Road road(const std::string& name) {
 }
 
 class DrivenStreets : public ::testing::Test {
- protected:
+ public:
   std::vector<DrivenStreet> streets(Track fixes) const {
     mapmatch::Matcher matcher(network, rules, {});
     MatchedTrack track{std::move(fixes), {}};

@@ -18,7 +18,7 @@ using ::testing::StartsWith;
 using web::Event;
 
 class MapDoubts : public ::testing::Test {
- protected:
+ public:
   std::vector<Event> doubts(const mapmatch::RoadNetwork& network) const {
     mapmatch::Matcher matcher(network, rules, {});
     MatchedTrack track{drive, {}};

@@ -27,7 +27,7 @@ std::string read(const std::filesystem::path& file) {
 }
 
 class MatchOutput : public ::testing::Test {
- protected:
+ public:
   MatchOutput() {
     mapmatch::Matcher matcher(network, rules, {});
     track.fixes = maploop::testing::drive({{-90, 0}, {90, 0}}, 10.0, 1.0);

@@ -50,7 +50,7 @@ void expect_near(std::size_t held, std::size_t budget) {
 }
 
 class EstimatorOf0013 : public ::testing::Test {
- protected:
+ public:
   void SetUp() override {
     if (!maploop::testing::counts_allocations()) GTEST_SKIP() << "a sanitizer owns malloc";
     MAPLOOP_REQUIRE_DRIVE();
