@@ -62,9 +62,10 @@ void RoadNetwork::check() const {
     for (std::uint32_t v = l.first_vertex; v + 1 < l.first_vertex + l.vertex_count; ++v)
       require(data_.vertices[v].along <= data_.vertices[v + 1].along, "a link runs backwards");
   }
-  for (const Junction& j : data_.junctions)
+  for (const Junction& j : data_.junctions) {
     require(j.first_exit <= data_.exits.size() && j.exit_count <= data_.exits.size() - j.first_exit,
             "a junction's links are missing");
+  }
   require(std::all_of(data_.exits.begin(), data_.exits.end(), known), "an exit is not a link");
   for (const BannedTurn& b : data_.banned)
     require(known(b.from) && known(b.to), "a banned turn is not between two links");
