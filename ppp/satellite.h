@@ -31,7 +31,7 @@ struct Satellite {
 
   // Orders by system, then by number.
   auto operator<=>(const Satellite&) const =
-      default;  // NOLINT(modernize-use-nullptr): none is there
+      default;  // NOLINT(modernize-use-nullptr): it takes a generated 0 for a pointer
   // Returns the satellite's index in tables, which is unique and below satellite_slots.
   std::size_t slot() const { return static_cast<std::size_t>(system) * 100 + number; }
 };

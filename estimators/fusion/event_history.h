@@ -38,7 +38,7 @@ struct EventKey {
   std::uint64_t sequence = 0;
 
   auto operator<=>(const EventKey&) const =
-      default;  // NOLINT(modernize-use-nullptr): none is there
+      default;  // NOLINT(modernize-use-nullptr): it takes a generated 0 for a pointer
 };
 
 template <class Archive>

@@ -20,13 +20,6 @@ using vehicle::StageSpec;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double driver_margin = 3.0;  // on the largest mean of a second
 
-// Returns nullptr if there is none of that name.
-const LatencySummary* find(const std::vector<LatencySummary>& all, std::string_view name) {
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
-  return found != all.end() && found->count > 0 ? &*found : nullptr;
-}
-
 const StageSpec* stage_of(const std::string& name) {
   const auto found = std::find_if(vehicle::stages::all.begin(), vehicle::stages::all.end(),
                                   [&](const StageSpec& stage) { return stage.name == name; });
@@ -59,7 +52,8 @@ Thread thread_of(const ThreadHealth& health, const StageSpec& stage,
   const double steps = static_cast<double>(health.count);
   p.period = stage.period > Duration::zero() ? to_milliseconds(stage.period)
                                              : 1e3 * run.health.elapsed / steps;
-  if (const LatencySummary* execution = find(run.execution, health.name)) {
+  const LatencySummary* const execution = profile::find(run.execution, health.name);
+  if (execution != nullptr && execution->count > 0) {
     p.execution = execution_bound(*execution, parameters);
   } else {
     p.from_mean = true;
@@ -68,10 +62,8 @@ Thread thread_of(const ThreadHealth& health, const StageSpec& stage,
     const double mean = step != run.step_cpu.end() ? step->second : health.cpu / steps;
     p.execution.bound = driver_margin * 1e3 * mean;
   }
-  const auto response =
-      std::find_if(run.threads.begin(), run.threads.end(),
-                   [&](const profile::Latency& l) { return l.name == health.name; });
-  p.measured = response != run.threads.end() ? to_milliseconds(response->max) : unknown;
+  const profile::Latency* const response = profile::find(run.threads, health.name);
+  p.measured = response != nullptr ? to_milliseconds(response->max) : unknown;
   p.deadline = to_milliseconds(stage.deadline);
   thread.task = {p.name, priority_of(scheduling), scheduling.cpus, p.period, p.execution.bound, {}};
   return thread;
@@ -94,8 +86,9 @@ void join(std::vector<Task>& tasks) {
 }
 
 // Returns what would let the task meet its deadline.
-std::string remedy(const std::vector<Task>& tasks, std::size_t i, int cpus, const Analysis& a) {
+std::string remedy(const std::vector<Task>& tasks, std::size_t i, const Analysis& a) {
   const Promise& p = a.threads[i];
+  const int cpus = a.cpus;
   const auto kept = [&](const std::vector<Task>& changed, int n, double blocking) {
     return response_times(changed, n, blocking)[i] <= p.deadline;
   };
@@ -155,7 +148,7 @@ Analysis analyze(const profile::Profile& run, const vehicle::SchedulingParameter
   for (const Thread& thread : threads) {
     tasks.push_back(thread.task);
     analysis.utilization += thread.task.execution / thread.task.period / parameters.cpus;
-    if (const LatencySummary* late = find(run.wake_up, thread.task.name))
+    if (const LatencySummary* late = profile::find(run.wake_up, thread.task.name))
       analysis.blocking = std::max(analysis.blocking, to_milliseconds(late->max));
   }
   join(tasks);
@@ -168,8 +161,7 @@ Analysis analyze(const profile::Profile& run, const vehicle::SchedulingParameter
     const Promise& p = analysis.threads[i];
     if (!p.kept()) {
       analysis.advice.push_back(fmt::format("{}: {:.0f} ms cannot be promised; {}.", p.name,
-                                            p.deadline,
-                                            remedy(tasks, i, parameters.cpus, analysis)));
+                                            p.deadline, remedy(tasks, i, analysis)));
     }
   }
   return analysis;

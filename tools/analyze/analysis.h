@@ -1,4 +1,5 @@
-// Which deadlines of the vehicle's threads can be promised beforehand, from one measured run.
+// This file computes which deadlines of the vehicle's threads can be promised beforehand, from one
+// measured run.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,7 +12,7 @@
 
 namespace maploop::analyze {
 
-// What can be promised of one thread; times are in ms, and not finite where they are not known.
+// States what can be promised of one thread. Times are in ms, and NaN where they are not known.
 struct Promise {
   std::string name;
   std::string scheduling;  // as configured: "fifo 60"

@@ -1,4 +1,5 @@
-// How long one step of a thread takes at most, estimated from the steps that were measured.
+// This file estimates how long one step of a thread takes at most, from the steps that were
+// measured.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// When the steps of threads with fixed priorities end at the latest, on a number of CPUs.
+// This file computes when the steps of threads with fixed priorities end at the latest, on a number
+// of CPUs.
 #pragma once
 
 #include <cstddef>

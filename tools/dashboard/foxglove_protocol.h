@@ -1,4 +1,4 @@
-// What the protocol of Foxglove's viewers says, and how its messages are read.
+// This file writes and reads the messages of the protocol of Foxglove's viewers.
 #pragma once
 
 #include <cstddef>
@@ -29,11 +29,11 @@ std::optional<std::int64_t> integer(const nlohmann::json& object, const char* ke
 std::string text(const nlohmann::json& object, const char* key);
 const nlohmann::json& list(const nlohmann::json& object, const char* key);
 
-// What a server says to a new viewer.
+// Return the messages that a server sends to a new viewer.
 nlohmann::json server_info();
 nlohmann::json services();
 
-// Whether a list of protocols, separated by commas, has this one.
+// Returns whether a list of protocols, separated by commas, has this one.
 bool offers_protocol(std::string_view offered);
 
 }  // namespace maploop::dashboard::foxglove

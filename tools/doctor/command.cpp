@@ -32,7 +32,6 @@ struct DoctorOptions {
   std::string lcm_url;
   std::filesystem::path recording;  // empty: the machine is examined
   std::vector<std::string> settings, topics;
-  bool realtime = false;  // what happens without a recording anyhow, said aloud
 };
 
 // Asks the kernel for each thread of the graph as a paced replay would.
@@ -119,7 +118,8 @@ void add_doctor(CLI::App& app, Command& command) {
   CLI::Option* recording =
       sub->add_option("RECORDING", options.recording,
                       "Whatever maploop replay takes. Without it, the machine is examined");
-  sub->add_flag("--realtime", options.realtime, "Examine the machine, as without RECORDING")
+  sub->add_flag("--realtime")
+      ->description("Examine the machine, as without RECORDING")
       ->excludes(recording);
   add_topics(sub, options.topics);
   add_config(sub, options.config);

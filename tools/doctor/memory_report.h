@@ -1,4 +1,4 @@
-// How much memory a vehicle's threads and rings hold at most, as text and JSON.
+// This file reports how much memory a vehicle's threads and rings hold at most, as text and JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -118,20 +118,11 @@ class Decisions {
 
 }  // namespace
 
-std::vector<std::size_t> used_fixes(const MatchedTrack& track) {
-  std::vector<std::size_t> used;
-  for (std::size_t i = 0; i < track.fixes.size(); ++i)
-    if (track.results[i].refusal == mapmatch::FixRefusal::none) used.push_back(i);
-  return used;
-}
-
 json decision_data(const MatchedTrack& track, const mapmatch::RoadNetwork& network,
                    const mapmatch::RuleBases& rules) {
   Decisions decisions(network, rules);
-  for (const std::size_t i : used_fixes(track)) {
-    decisions.add(to_seconds(track.fixes[i].stamp - track.fixes.front().stamp), track.fixes[i],
-                  track.results[i]);
-  }
+  for (const std::size_t i : track.used())
+    decisions.add(track.second(i), track.fixes[i], track.results[i]);
   return decisions.data();
 }
 

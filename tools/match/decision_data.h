@@ -9,9 +9,6 @@
 
 namespace maploop::match {
 
-// Returns the indices of the fixes that the matcher used; their stamps increase.
-std::vector<std::size_t> used_fixes(const MatchedTrack& track);
-
 // Returns the places of these fixes and of their matches, the candidates with the reasons in words,
 // and the roads around them (tools/web/src/match.ts). Each different sentence is stored once.
 nlohmann::json decision_data(const MatchedTrack& track, const mapmatch::RoadNetwork& network,

@@ -29,14 +29,13 @@ std::vector<DrivenStreet> driven_streets(const MatchedTrack& track,
                                          const mapmatch::RoadNetwork& network) {
   std::vector<DrivenStreet> streets;
   const MatchResult* before = nullptr;  // the fix before, if it is on a road
-  for (std::size_t i = 0; i < track.fixes.size(); ++i) {
+  for (const std::size_t i : track.used()) {
     const MatchResult& now = track.results[i];
-    if (now.refusal != mapmatch::FixRefusal::none) continue;
     if (!now.on_road) {
       before = nullptr;
       continue;
     }
-    const double second = to_seconds(track.fixes[i].stamp - track.fixes.front().stamp);
+    const double second = track.second(i);
     const std::string name = street_name(network.road_at(now.point.vertex));
     if (!before || streets.back().name != name) streets.push_back({name, second});
     DrivenStreet& street = streets.back();

@@ -28,7 +28,8 @@ class Doubts {
   Doubts(const MatchedTrack& track, const mapmatch::RoadNetwork& network)
       : track_(track), network_(network) {
     const auto steps = static_cast<double>(std::max<std::size_t>(track.fixes.size(), 2) - 1);
-    if (!track.fixes.empty()) gap_ = std::max(gap_, 1.5 * second(track.fixes.size() - 1) / steps);
+    if (!track.fixes.empty())
+      gap_ = std::max(gap_, 1.5 * track.second(track.fixes.size() - 1) / steps);
   }
 
   Events off_road() const {
@@ -82,7 +83,7 @@ class Doubts {
     double now = 0.0;  // a time that went back is not on the timeline
     for (std::size_t i = 0; i < track_.fixes.size(); ++i) {
       const FixRefusal refusal = track_.results[i].refusal;
-      now = std::max(now, second(i));
+      now = std::max(now, track_.second(i));
       if (refusal == FixRefusal::none) continue;
       web::extend(events, now, refusal == last ? gap_ : -1.0, {0, 0, Event::Level::error, {}})
           .text = "fixes not used: " + std::string(to_string(refusal));
@@ -92,16 +93,10 @@ class Doubts {
   }
 
  private:
-  double second(std::size_t i) const {
-    return to_seconds(track_.fixes[i].stamp - track_.fixes.front().stamp);
-  }
-
   // Calls for each fix that was used.
   void visit(const auto& act) const {
-    for (std::size_t i = 0; i < track_.fixes.size(); ++i) {
-      if (track_.results[i].refusal == FixRefusal::none)
-        act(second(i), track_.results[i], track_.fixes[i]);
-    }
+    for (const std::size_t i : track_.used())
+      act(track_.second(i), track_.results[i], track_.fixes[i]);
   }
 
   static const MatchCandidate* matched_candidate(const MatchResult& r) {

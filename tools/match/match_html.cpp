@@ -65,12 +65,13 @@ struct Series {
 Series series_of(const MatchedTrack& track, const mapmatch::RoadNetwork& network) {
   Series s;
   Eigen::Vector2d last = Eigen::Vector2d::Zero();
-  for (const std::size_t i : used_fixes(track)) s.has_speeds |= std::isfinite(track.fixes[i].speed);
-  for (const std::size_t i : used_fixes(track)) {
+  const std::vector<std::size_t> used = track.used();
+  for (const std::size_t i : used) s.has_speeds |= std::isfinite(track.fixes[i].speed);
+  for (const std::size_t i : used) {
     const mapmatch::VehicleFix& fix = track.fixes[i];
     const mapmatch::MatchResult& r = track.results[i];
     const Eigen::Vector2d place = network.to_local(fix.position);
-    const double second = to_seconds(fix.stamp - track.fixes.front().stamp);
+    const double second = track.second(i);
     const double of_positions =
         s.second.empty() ? mapmatch::unknown : (place - last).norm() / (second - s.second.back());
     s.second.push_back(second);

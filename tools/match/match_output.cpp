@@ -26,6 +26,13 @@ std::string_view phase_of(const mapmatch::MatchResult& r) {
 
 }  // namespace
 
+std::vector<std::size_t> MatchedTrack::used() const {
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < fixes.size(); ++i)
+    if (results[i].refusal == mapmatch::FixRefusal::none) used.push_back(i);
+  return used;
+}
+
 void write_match_csv(const std::filesystem::path& file, const MatchedTrack& track,
                      const mapmatch::RoadNetwork& network) {
   std::string text =

@@ -16,6 +16,11 @@ struct MatchedTrack {
   Track fixes;
   std::vector<mapmatch::MatchResult> results;  // one for each fix
   std::string name{};                          // of its file
+
+  // Returns the seconds from the first fix to this one.
+  double second(std::size_t fix) const { return to_seconds(fixes[fix].stamp - fixes[0].stamp); }
+  // Returns the indices of the fixes that the matcher used; their stamps increase.
+  std::vector<std::size_t> used() const;
 };
 
 // Writes

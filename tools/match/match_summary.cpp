@@ -9,8 +9,9 @@ double MatchSummary::doubtful_share() const {
 MatchSummary summary(const MatchedTrack& track, const mapmatch::RoadNetwork& network) {
   MatchSummary s;
   s.fixes = track.fixes.size();
-  for (const mapmatch::MatchResult& r : track.results) {
-    if (r.refusal != mapmatch::FixRefusal::none || !r.on_road) continue;
+  for (const std::size_t i : track.used()) {
+    const mapmatch::MatchResult& r = track.results[i];
+    if (!r.on_road) continue;
     ++s.matched;
     s.doubtful += r.probability < sure;
   }

@@ -30,9 +30,8 @@ std::vector<std::string> names_of(const std::vector<Item>& a, const std::vector<
 // Returns figure(item) of that name; `unknown` without it, or if it was never measured.
 template <class Item, class Figure>
 double value(const std::vector<Item>& items, const std::string& name, Figure figure) {
-  const auto found =
-      std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
-  return found != items.end() ? figure(*found) : unknown;
+  const Item* const item = find(items, name);
+  return item != nullptr ? figure(*item) : unknown;
 }
 
 double share_missed(const LatencySummary& s, bool virtual_time) {
@@ -95,10 +94,6 @@ web::Columns<Compared> processor_columns(const Comparison& c) {
   return joined({columns_of(c, "processor", "s", &Compared::p50, 8, 3, true)});
 }
 
-nlohmann::json to_json(const web::Columns<Compared>& columns, const std::vector<Compared>& items) {
-  return web::by_name(columns, items);
-}
-
 }  // namespace
 
 Comparison compare(const std::string& name_a, const Profile& a, const std::string& name_b,
@@ -139,8 +134,8 @@ std::string to_text(const Comparison& c) {
 std::string to_json(const Comparison& c) {
   nlohmann::json json{{"a", c.a}, {"b", c.b}};
   for (const ComparedGroup& group : c.groups)
-    json[group.title] = to_json(latencies(c), group.items);
-  json["Processor time"] = to_json(processor_columns(c), c.processor);
+    json[group.title] = web::by_name(latencies(c), group.items);
+  json["Processor time"] = web::by_name(processor_columns(c), c.processor);
   return json.dump(2) + '\n';
 }
 

@@ -1,4 +1,4 @@
-// Two profiles side by side: of two machines, or of one before and after a change.
+// This file compares two profiles: of two machines, or of one before and after a change.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct BothRuns {
   double ratio() const { return b / a; }
 };
 
-// What a thread, a path, or a part of a thread took in both runs.
+// States how long a thread, a path, or a part of a thread took in both runs.
 struct Compared {
   std::string name;
   BothRuns p50, p99;  // ms

@@ -1,6 +1,7 @@
 // Evaluates the DEADLINES and HEALTH of one run: where its time was spent.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -26,6 +27,14 @@ struct WorstMiss {
   Duration deadline{};
   MissedDeadline miss;
 };
+
+// Returns the item of that name; nullptr if there is none.
+template <class Item>
+const Item* find(const std::vector<Item>& all, std::string_view name) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Item& item) { return item.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
 
 // All figures cover the whole run up to `stamp`.
 struct Profile {

@@ -55,13 +55,6 @@ void add_plot(std::vector<web::Plot>& plots, const std::string& title,
   if (!plot.lines.empty()) plots.push_back(std::move(plot));
 }
 
-template <class Item>
-const Item* find(const std::vector<Item>& all, const std::string& name) {
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
-  return found == all.end() ? nullptr : &*found;
-}
-
 std::vector<web::Plot> distributions(const Profile& p) {
   std::vector<web::Plot> plots;
   const auto add_parts = [&](std::vector<Curve>& curves, const std::string& thread) {

@@ -1,4 +1,4 @@
-// What a file, or the start of a stream, of RTCM 3 says as a whole.
+// This file reads whole files of RTCM 3, and recognizes them by their beginning.
 #include "ppp/readers/streams/epoch_builder.h"
 #include "ppp/readers/streams/rtcm3.h"
 #include "ppp/readers/streams/rtcm3_ephemeris.h"

@@ -133,13 +133,19 @@ std::string toml_value(const Scheduling& s) {
   return fmt::format("{}, prefaulted_stack_kb = {} }}", text, s.prefaulted_stack_kb);
 }
 
-const runtime::Scheduling& scheduling_of(const SchedulingParameters& parameters,
-                                         const StageSpec& stage) {
+const runtime::Scheduling* find_scheduling(const SchedulingParameters& parameters,
+                                           const StageSpec& stage) {
   const std::string_view key = stage.scheduled_as.empty() ? stage.name : stage.scheduled_as;
   for (const ScheduledThread& thread : scheduled_threads()) {
-    if (thread.key == key) return parameters.*thread.scheduling;
+    if (thread.key == key) return &(parameters.*thread.scheduling);
   }
-  throw std::logic_error("[scheduling] has no key '" + std::string(key) + "'");
+  return nullptr;
+}
+
+const runtime::Scheduling& scheduling_of(const SchedulingParameters& parameters,
+                                         const StageSpec& stage) {
+  if (const runtime::Scheduling* found = find_scheduling(parameters, stage)) return *found;
+  throw std::logic_error("[scheduling] has no key for '" + std::string(stage.name) + "'");
 }
 
 }  // namespace maploop::vehicle

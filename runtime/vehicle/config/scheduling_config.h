@@ -67,7 +67,11 @@ struct ScheduledThread {
 };
 std::span<const ScheduledThread> scheduled_threads();
 
-// Returns the scheduling of a thread of the graph.
+// Returns the scheduling of a thread of the graph; nullptr if [scheduling] does not have it.
+const runtime::Scheduling* find_scheduling(const SchedulingParameters& parameters,
+                                           const StageSpec& stage);
+
+// Returns the same of a thread that it has.
 const runtime::Scheduling& scheduling_of(const SchedulingParameters& parameters,
                                          const StageSpec& stage);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <string_view>
 #include <tuple>
 
 #include "runtime/vehicle/graph/ring_specs.h"
@@ -23,17 +22,8 @@ std::size_t bytes_of(const SampleSizes& sizes) {
 
 // Returns the bytes that are mapped for a thread; 0 for one that [scheduling] does not have.
 std::size_t stack_of(const StageSpec& stage, const SchedulingParameters& scheduling) {
-  const std::string_view key = stage.scheduled_as.empty() ? stage.name : stage.scheduled_as;
-  std::size_t kb = 0;
-  for (const ScheduledThread& thread : scheduled_threads()) {
-    if (thread.key == key)
-      kb = static_cast<std::size_t>((scheduling.*thread.scheduling).prefaulted_stack_kb);
-  }
-  return kb * 1024;
-}
-
-std::size_t bytes_of(const WorkingMemory& memory, const SampleSizes& sizes) {
-  return memory.fixed + memory.per_pixel * sizes.pixels;
+  const runtime::Scheduling* const found = find_scheduling(scheduling, stage);
+  return found != nullptr ? static_cast<std::size_t>(found->prefaulted_stack_kb) * 1024 : 0;
 }
 
 void sort_by_bytes(std::vector<MemoryPart>& parts) {
@@ -47,8 +37,8 @@ std::vector<MemoryPart> memory_budget(const SampleSizes& sizes,
                                       const SchedulingParameters& scheduling) {
   std::vector<MemoryPart> parts, rings;
   for (const StageSpec& stage : stages::all) {
-    parts.push_back(
-        {std::string(stage.name), 1, stack_of(stage, scheduling) + bytes_of(stage.memory, sizes)});
+    parts.push_back({std::string(stage.name), 1,
+                     stack_of(stage, scheduling) + stage.memory.bytes(sizes.pixels)});
   }
   const auto decodes = [&](const StageSpec& driver, std::size_t each) {
     parts.push_back({std::string(driver.name) + " loader", rings::decoded_ahead, each});

@@ -1,4 +1,5 @@
-// How much memory a vehicle's threads and rings hold at most, from their declaration.
+// This file computes how much memory a vehicle's threads and rings hold at most, from what they
+// declare.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +10,13 @@
 
 namespace maploop::vehicle {
 
-// What the largest samples have: pixels of one image of a pair, points of one scan.
+// States how large the largest samples are: one image of a pair, and one scan.
 struct SampleSizes {
   std::size_t pixels = 0;
   std::size_t points = 0;
 };
 
-// Bytes of one thread, or of one ring.
+// States how many bytes one thread, or one ring, holds.
 struct MemoryPart {
   std::string name;       // "stereo", or "camera -> stereo"
   std::size_t count = 1;  // slots of a ring
@@ -23,10 +24,10 @@ struct MemoryPart {
   std::size_t bytes() const { return count * each; }
 };
 
-// The parts of a vehicle with every stage and every ring of the declaration, threads before rings,
-// the largest first. A thread has its stack and what its estimator holds; a recording's driver has
-// the images or scans that are decoded ahead. Neither the road map, nor the program itself, nor
-// states that are saved to go back to are among them.
+// Returns the parts of a vehicle with every stage and every ring that are declared: threads before
+// rings, the largest first. A thread has its stack and what its estimator holds; a recording's
+// driver has the images or scans that are decoded ahead. Neither the road map, nor the program
+// itself, nor states that are saved to go back to are among them.
 std::vector<MemoryPart> memory_budget(const SampleSizes& sizes,
                                       const SchedulingParameters& scheduling);
 

@@ -142,8 +142,8 @@ inline constexpr RingSpec<RuntimeReport> health_publisher{stages::health, publis
 // apart, and a saved state has megabytes.
 inline constexpr std::size_t snapshot_capacity = 1;
 
-// What each slot of a ring holds before it is used: room for buffers that would otherwise grow in a
-// real-time thread.
+// Returns what each slot of a ring holds before it is used. It has room for buffers that would
+// otherwise grow in a real-time thread.
 template <class T>
 T prototype() {
   T sample{};

@@ -17,6 +17,8 @@ using std::chrono::milliseconds;
 struct WorkingMemory {
   std::size_t fixed = 0;
   std::size_t per_pixel = 0;  // of one image of a pair
+
+  constexpr std::size_t bytes(std::size_t pixels) const { return fixed + per_pixel * pixels; }
 };
 
 // One thread. Rates, periods and budgets are of data time; the deadline is of the machine's clock.

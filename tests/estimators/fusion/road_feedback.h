@@ -1,4 +1,4 @@
-// Feedback of made-up roads, and a filter that can take it at once.
+// This file makes feedback of made-up roads, and a filter that can take it at once.
 #pragma once
 
 #include "estimators/fusion/reduced_imu_filter.h"
