@@ -39,8 +39,8 @@ enum class Phase : std::uint8_t {
 // Says how far the filter has come, and counts what it has done.
 struct FilterStatus {
   Phase phase = Phase::waiting_for_fix;  // what the filter waits for, if it has not started
-  std::uint64_t recoveries = 0;  // covariance inflations after consecutive gated measurements
-  std::uint64_t reinitializations = 0;  // restarts from a fix after consecutive gated fixes
+  std::uint64_t recoveries = 0;         // inflations after gated measurements, since the last start
+  std::uint64_t reinitializations = 0;  // restarts from a fix after gated ones, since then
   std::uint64_t restarts = 0;           // restarts after a jump of the data's clock
   std::uint64_t shortened = 0;          // events dropped early because the history was full
   std::uint64_t restorations = 0;       // times a map-free copy replaced the filter
@@ -125,7 +125,7 @@ class ReducedImuFilter {
   // Returns what the filter has estimated of the vehicle; each sigma is 0 before the start.
   SelfCalibrations calibration() const;
 
-  // Takes over the state of a filter with the same parameters; keeps its own counters.
+  // Takes over the state of a filter with the same parameters; keeps its own status, but counts it.
   void take_over(const ReducedImuFilter& other);
 
   // Returns the state at `t` from all measurements known now with a stamp <= t (and from the

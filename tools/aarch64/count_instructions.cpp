@@ -1,0 +1,99 @@
+// A plugin of QEMU 7.2's user-mode emulators (docs/devel/tcg-plugins.rst of QEMU describes the
+// interface): it writes how many instructions the threads of each name have executed, as lines
+// "NAME INSTRUCTIONS", to the file that `out=FILE` names.
+#include <pthread.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+// What of the interface is used here: Debian has no package with its header.
+extern "C" {
+using qemu_plugin_id_t = std::uint64_t;
+struct qemu_plugin_tb;
+struct qemu_info_t;
+void qemu_plugin_register_vcpu_tb_trans_cb(qemu_plugin_id_t,
+                                           void (*)(qemu_plugin_id_t, qemu_plugin_tb*));
+void qemu_plugin_register_vcpu_tb_exec_cb(qemu_plugin_tb*, void (*)(unsigned int, void*), int flags,
+                                          void* user);
+void qemu_plugin_register_vcpu_syscall_cb(qemu_plugin_id_t,
+                                          void (*)(qemu_plugin_id_t, unsigned int, std::int64_t,
+                                                   std::uint64_t, std::uint64_t, std::uint64_t,
+                                                   std::uint64_t, std::uint64_t, std::uint64_t,
+                                                   std::uint64_t, std::uint64_t));
+void qemu_plugin_register_atexit_cb(qemu_plugin_id_t, void (*)(qemu_plugin_id_t, void*),
+                                    void* user);
+std::size_t qemu_plugin_tb_n_insns(const qemu_plugin_tb*);
+
+extern const int qemu_plugin_version;
+int qemu_plugin_install(qemu_plugin_id_t, const qemu_info_t*, int, char**);
+}
+
+namespace {
+
+// The emulator gives each thread a number, and each writes only its own count.
+struct alignas(64) Thread {
+  std::uint64_t instructions;
+  std::array<char, 16> name;
+};
+std::array<Thread, 4096> threads;
+std::string file;
+
+void execute(unsigned int thread, void* instructions) {
+  threads.at(thread).instructions += reinterpret_cast<std::uintptr_t>(instructions);
+}
+
+void translate(qemu_plugin_id_t, qemu_plugin_tb* block) {
+  // The number itself is the word that the emulator hands back.
+  void* instructions =
+      reinterpret_cast<void*>(qemu_plugin_tb_n_insns(block));  // NOLINT(performance-no-int-to-ptr)
+  qemu_plugin_register_vcpu_tb_exec_cb(block, execute, 0, instructions);
+}
+
+// A thread of the program is one of the emulator, which has the same name: it is read at each call
+// of the system, as the last one of a thread comes after it has taken its name.
+void call_system(qemu_plugin_id_t, unsigned int thread, std::int64_t, std::uint64_t, std::uint64_t,
+                 std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t,
+                 std::uint64_t) {
+  auto& name = threads.at(thread).name;
+  pthread_getname_np(pthread_self(), name.data(), name.size());
+}
+
+void write_counts(qemu_plugin_id_t, void*) {
+  std::map<std::string_view, std::uint64_t> of_name;
+  for (const Thread& t : threads) {
+    if (t.instructions > 0) of_name[t.name.data()] += t.instructions;
+  }
+  std::FILE* out = std::fopen(file.c_str(), "w");
+  if (!out) return std::perror(file.c_str());
+  for (const auto& [name, instructions] : of_name) {
+    std::fprintf(out, "%s %llu\n", name.data(), static_cast<unsigned long long>(instructions));
+  }
+  std::fclose(out);
+}
+
+}  // namespace
+
+extern "C" {
+const int qemu_plugin_version = 1;
+
+int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t*, int argc, char** argv) {
+  for (int i = 0; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument.starts_with("out=")) file = argument.substr(4);
+  }
+  if (file.empty()) {
+    std::fputs("count_instructions: out=FILE is missing\n", stderr);
+    return 1;
+  }
+  qemu_plugin_register_vcpu_tb_trans_cb(id, translate);
+  qemu_plugin_register_vcpu_syscall_cb(id, call_system);
+  qemu_plugin_register_atexit_cb(id, write_counts, nullptr);
+  return 0;
+}
+}
