@@ -34,10 +34,23 @@ const FuzzySystem& system_of(RuleBase base, const RuleBases& rules) {
   return rules.junction;
 }
 
-std::string name_of(const RoadNetwork& network, DirectedLink link, double along) {
-  const Road& road = network.road_at(network.at(link, along).vertex);
+std::string name_of(const Road& road) {
   const std::string way = "way " + std::to_string(road.way_id);
   return road.name.empty() ? way : road.name + " (" + way + ")";
+}
+
+std::string name_of(const RoadNetwork& network, DirectedLink link, double along) {
+  return name_of(network.road_at(network.at(link, along).vertex));
+}
+
+// Returns the name of the road at a segment of a doubt.
+std::string name_of(const RoadNetwork& network, const MapDoubt::Segment& segment) {
+  if (segment.way_id == 0) return "no road";
+  for (const Vertex& v : network.shape(segment.link.link)) {
+    const Road& road = network.data().roads[v.road];
+    if (road.way_id == segment.way_id) return name_of(road);
+  }
+  return "way " + std::to_string(segment.way_id);
 }
 
 std::string list(const std::vector<std::string>& words) {
@@ -99,6 +112,23 @@ std::string explanation(const LinkMatch& r, const RoadNetwork& network) {
     break;
   }
   return text;
+}
+
+std::string explanation(const MapDoubt& doubt, const RoadNetwork& network) {
+  const std::string from = name_of(network, doubt.from), to = name_of(network, doubt.to);
+  const std::string length = rounded(doubt.length) + " m";
+  switch (doubt.kind) {
+    case DoubtKind::missing_road:
+      return length + " were driven where the map has no road, from " + from + " to " + to;
+    case DoubtKind::wrong_direction:
+      return from + " was driven against its one-way direction for " + length;
+    case DoubtKind::forbidden_turn:
+      return "the turn from " + from + " into " + to + ", which the map forbids, was driven";
+    case DoubtKind::shifted_road:
+      break;
+  }
+  return from + " was driven " + rounded(std::abs(doubt.offset)) + " m to the " +
+         (doubt.offset > 0.0 ? "right" : "left") + " of its line for " + length;
 }
 
 MapMatchWords in_words(const LinkMatch& match, const RoadNetwork& network, const RuleBases& rules) {

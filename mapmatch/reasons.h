@@ -1,4 +1,5 @@
-// These functions explain in words why a link was chosen or not. They are for display and allocate.
+// These functions explain in words why a link was chosen or not, and what a drive contradicts. They
+// are for display and allocate.
 #pragma once
 
 #include <string>
@@ -6,6 +7,7 @@
 
 #include "mapmatch/match_result.h"
 #include "mapmatch/rule_bases.h"
+#include "msgs/map_doubt.h"
 
 namespace maploop::mapmatch {
 
@@ -19,6 +21,10 @@ std::vector<std::pair<std::string, double>> fired_rules(const MatchCandidate& ca
 
 // Returns a sentence on the result: the link and the reason for it, or why there is no link.
 std::string explanation(const LinkMatch& match, const RoadNetwork& network);
+
+// Returns a sentence on how a drive contradicts the map, such as "High Street (way 10) was driven
+// against its one-way direction for 120 m".
+std::string explanation(const MapDoubt& doubt, const RoadNetwork& network);
 
 // Returns all of the above for a match of this network by these rules.
 MapMatchWords in_words(const LinkMatch& match, const RoadNetwork& network, const RuleBases& rules);

@@ -11,6 +11,7 @@ inline constexpr std::string_view visual_odometry = "VO";
 inline constexpr std::string_view lidar_odometry = "LIDAR_ODOMETRY";
 inline constexpr std::string_view odometry = "ODOMETRY";
 inline constexpr std::string_view map_match = "MAP_MATCH";
+inline constexpr std::string_view map_doubt = "MAP_DOUBT";
 inline constexpr std::string_view map_feedback = "MAP_FEEDBACK";
 inline constexpr std::string_view imu = "IMU";
 inline constexpr std::string_view gnss_fix = "GNSS_FIX";

@@ -9,6 +9,7 @@
 #include <maploop_lcm/imu_t.hpp>
 #include <maploop_lcm/lidar_motion_t.hpp>
 #include <maploop_lcm/lidar_scan_t.hpp>
+#include <maploop_lcm/map_doubt_t.hpp>
 #include <maploop_lcm/map_feedback_t.hpp>
 #include <maploop_lcm/map_match_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
@@ -27,6 +28,7 @@
 #include "msgs/image.h"
 #include "msgs/imu.h"
 #include "msgs/lidar_scan.h"
+#include "msgs/map_doubt.h"
 #include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
@@ -49,6 +51,7 @@ maploop_lcm::gnss_fix_t to_lcm(const GnssFix& fix);
 maploop_lcm::ppp_state_t to_lcm(const PppState& state);
 maploop_lcm::reference_pose_t to_lcm(const ReferencePose& pose);
 maploop_lcm::map_match_t to_lcm(const MapMatch& match, const MapMatchWords& words);
+maploop_lcm::map_doubt_t to_lcm(const MapDoubt& doubt);
 maploop_lcm::map_feedback_t to_lcm(const MapFeedback& feedback);
 maploop_lcm::preview_t to_lcm(const Preview& preview);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
@@ -70,6 +73,7 @@ GnssFix from_lcm(const maploop_lcm::gnss_fix_t& message);
 PppState from_lcm(const maploop_lcm::ppp_state_t& message);
 ReferencePose from_lcm(const maploop_lcm::reference_pose_t& message);
 MapMatch from_lcm(const maploop_lcm::map_match_t& message);
+MapDoubt from_lcm(const maploop_lcm::map_doubt_t& message);
 MapFeedback from_lcm(const maploop_lcm::map_feedback_t& message);
 Preview from_lcm(const maploop_lcm::preview_t& message);
 Deadlines from_lcm(const maploop_lcm::deadlines_t& message);

@@ -89,6 +89,47 @@ MapMatch from_lcm(const maploop_lcm::map_match_t& message) {
   return match;
 }
 
+void convert_track(auto copy, auto& doubt, auto& m) {
+  if constexpr (copy.to_message) {
+    m.point_count = static_cast<std::int32_t>(doubt.track_count);
+    m.latitude.resize(doubt.track_count);
+    m.longitude.resize(doubt.track_count);
+  } else {
+    if (m.latitude.size() > doubt.track.size()) {
+      throw std::invalid_argument("map_doubt_t has " + std::to_string(m.latitude.size()) +
+                                  " points, more than this version holds");
+    }
+    doubt.track_count = m.latitude.size();
+  }
+  for (std::size_t i = 0; i < doubt.track_count; ++i) {
+    copy(doubt.track[i].latitude, m.latitude[i]);
+    copy(doubt.track[i].longitude, m.longitude[i]);
+  }
+}
+
+void convert(auto copy, Is<MapDoubt> auto& doubt, auto& m) {
+  copy.header(doubt, m.header);
+  copy.choice(doubt.kind, m.kind, "map_doubt_t.kind");
+  if constexpr (copy.to_message) m.explanation = to_string(doubt.kind);
+  copy(doubt.begin, m.begin_ns);
+  copy(doubt.probability, m.probability);
+  copy(doubt.length, m.length);
+  copy(doubt.from.link.link, m.link);
+  copy(doubt.from.link.forward, m.forward);
+  copy(doubt.from.way_id, m.way_id);
+  copy(doubt.from.node_a, m.node_a);
+  copy(doubt.from.node_b, m.node_b);
+  copy(doubt.to.link.link, m.to_link);
+  copy(doubt.to.link.forward, m.to_forward);
+  copy(doubt.to.way_id, m.to_way_id);
+  copy(doubt.to.node_a, m.to_node_a);
+  copy(doubt.to.node_b, m.to_node_b);
+  copy(doubt.offset, m.offset);
+  copy(doubt.offset_sigma, m.offset_sigma);
+  convert_track(copy, doubt, m);
+}
+MAPLOOP_CONVERSIONS(MapDoubt, maploop_lcm::map_doubt_t)
+
 void convert(auto copy, Is<MapFeedback> auto& feedback, auto& m) {
   copy.header(feedback, m.header);
   copy.choice(feedback.reason, m.reason, "map_feedback_t.reason");

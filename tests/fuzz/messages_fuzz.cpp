@@ -4,6 +4,7 @@
 #include <maploop_lcm/gnss_fix_t.hpp>
 #include <maploop_lcm/health_t.hpp>
 #include <maploop_lcm/lidar_scan_t.hpp>
+#include <maploop_lcm/map_doubt_t.hpp>
 #include <maploop_lcm/map_feedback_t.hpp>
 #include <maploop_lcm/map_match_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
@@ -43,7 +44,7 @@ void decode(std::span<const std::uint8_t> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace maploop_lcm;
   fuzz::Input input(data, size);
-  const auto kind = input.byte() % 12U;
+  const auto kind = input.byte() % 13U;
   const auto bytes = input.rest();
   switch (kind) {
     case 0:
@@ -79,8 +80,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 10:
       decode<replay_control_t>(bytes);
       break;
-    default:
+    case 11:
       decode<stereo_pair_t>(bytes);
+      break;
+    default:
+      decode<map_doubt_t>(bytes);
       break;
   }
   return 0;

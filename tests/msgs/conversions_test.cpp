@@ -47,6 +47,13 @@ void make_valid(MapMatch& match) {
     match.candidates[i] = {};
   }
 }
+void make_valid(MapDoubt& doubt) {
+  doubt.track_count %= MapDoubt::max_points + 1;
+  for (std::size_t i = 0; i < MapDoubt::max_points; ++i) {
+    if (i >= doubt.track_count) doubt.track[i] = {};
+    doubt.track[i].height = 0.0;
+  }
+}
 void make_valid(LidarScan& scan) {
   scan.times.resize(scan.points.size());
 }
@@ -97,8 +104,8 @@ class Message : public ::testing::Test {};
 
 using Messages =
     ::testing::Types<NavState, OdomState, RelativeMotion, LidarMotion, ImuSample, WheelSpeed,
-                     GnssFix, ReferencePose, MapMatch, MapFeedback, PppState, Preview, Deadlines,
-                     SelfCalibration, Health, VehicleCalibration, StereoPair, LidarScan>;
+                     GnssFix, ReferencePose, MapMatch, MapDoubt, MapFeedback, PppState, Preview,
+                     Deadlines, SelfCalibration, Health, VehicleCalibration, StereoPair, LidarScan>;
 TYPED_TEST_SUITE(Message, Messages);
 
 template <class T>

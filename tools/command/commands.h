@@ -22,6 +22,7 @@ AddCommand add_analyze, add_calibrate, add_dashboard, add_doctor, add_evaluate, 
     add_gnss, add_log, add_map, add_match, add_odometry, add_ppp, add_profile, add_send,
     add_sensors, add_simulate, add_spy, add_vehicle;
 AddCommand add_evaluate_match;        // of `maploop evaluate`
+AddCommand add_map_doubts;            // of `maploop map`
 AddCommand add_calibrate_extrinsics;  // of `maploop calibrate`
 
 // Writes the page of a run. Throws std::runtime_error naming the file if it cannot be written.

@@ -37,11 +37,14 @@ struct FaultScores {
   double longest = 0.0, recovery = 0.0;
   double p_sum = 0.0;
   std::size_t fixes = 0, said = 0, sure = 0;
+  std::size_t found = 0, others = 0;  // doubts
   std::string worst;
 
-  void add(const match::FaultScore& score, const RecordedDrive& drive, std::int64_t way,
-           std::size_t seed) {
+  void add(const match::FaultScore& score, const match::DoubtScore& doubts,
+           const RecordedDrive& drive, std::int64_t way, std::size_t seed) {
     ++cases;
+    found += doubts.found ? 1 : 0;
+    others += doubts.others;
     over += score.longest_sure_wrong > 3.0 ? 1 : 0;
     late += score.recovery > 150.0 ? 1 : 0;
     recovery = std::max(recovery, score.recovery);
@@ -70,6 +73,8 @@ struct FaultScores {
             of_fixes(said, 1),
             of_fixes(sure, 2),
             fixes == 0 ? "-" : number(p_sum / answers, 2),
+            number(100.0 * static_cast<double>(found) / static_cast<double>(cases), 1),
+            number(static_cast<double>(others) / static_cast<double>(cases), 2),
             worst};
   }
 };
@@ -136,20 +141,23 @@ int fault_experiment(const RecordedDriveOptions& options) {
         for (const WrongMap& wrong : maps) {
           if (wrong.seed > 0 && tracks.size() > 1 && wrong.seed != i + 1) continue;
           mapmatch::Matcher matcher(wrong.network, rules, parameters);
-          const auto matched = match::match_track(matcher, tracks[i].track);
+          std::vector<MapDoubt> doubts;
+          const auto matched = match::match_track(matcher, tracks[i].track, &doubts);
           const match::FaultScore score =
               match::score_fault(matched, tracks[i], drive.labels, wrong.missing);
+          const match::DoubtScore doubted =
+              match::score_doubts(doubts, tracks[i], drive.labels, wrong.way, wrong.missing != 0);
           auto& of_fault = scores[{wrong.fault}];
           of_fault.resize(conditions.size() + 1);
           for (const std::size_t row : {c, conditions.size()})
-            of_fault[row].add(score, drive, wrong.way, i + 1);
+            of_fault[row].add(score, doubted, drive, wrong.way, i + 1);
         }
       }
     }
   }
   experiments::Table table{"Map matching on wrong maps",
                            {"map", "fixes", "drives", "longest s", "> 3 s", "recovery m", "> 150",
-                            "said %", "sure %", "P", "longest of"},
+                            "said %", "sure %", "P", "found %", "other doubts", "longest of"},
                            {}};
   for (const auto& [fault, of_fault] : scores) {
     for (std::size_t c = 0; c < of_fault.size(); ++c) {
@@ -162,7 +170,9 @@ int fault_experiment(const RecordedDriveOptions& options) {
   std::cout << as_text(table)
             << "longest: a wrong link with P above 0.9, without a break; recovery: distance driven "
                "without the right link where the map has it\non the missing way: share of fixes "
-               "with a link (which is wrong), with P above 0.9, and its mean P\n";
+               "with a link (which is wrong), with P above 0.9, and its mean P\n"
+               "found: drives whose doubts name the wrong way; other doubts: a drive, of the rest "
+               "of the map\n";
   return 0;
 }
 

@@ -1,4 +1,6 @@
 // maploop map: road networks from OpenStreetMap.
+#include <fmt/format.h>
+
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -15,12 +17,15 @@
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
+#include "tools/match/doubts_file.h"
+#include "tools/match/map_corrections.h"
 
 namespace maploop::tools {
 namespace {
 
 struct MapOptions {
-  std::filesystem::path input, output, json;
+  std::filesystem::path input, output, json, doubts;
+  double min_probability = 0.9;  // of doubts that correct the map
   std::vector<double> box;
 
   mapmatch::OsmOptions osm() const {
@@ -39,9 +44,21 @@ struct OpenedNetwork {
   double milliseconds;
 };
 
+mapmatch::NetworkData corrected(const MapOptions& options) {
+  const auto doubts = match::read_doubts(options.doubts, options.min_probability);
+  mapmatch::MapExtract map = mapmatch::read_osm(options.input, options.osm());
+  const match::Corrections done = match::correct(map, doubts);
+  std::cout << fmt::format(
+      "corrected: {} missing roads, {} directions, {} turns; {} doubts are left as they are\n",
+      done.roads, done.directions, done.turns, done.left);
+  return mapmatch::build_network(map);
+}
+
 OpenedNetwork open(const MapOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  mapmatch::RoadNetwork network(mapmatch::open_network(options.input, options.osm()));
+  mapmatch::RoadNetwork network(options.doubts.empty()
+                                    ? mapmatch::open_network(options.input, options.osm())
+                                    : corrected(options));
   const double seconds = to_seconds(std::chrono::steady_clock::now() - start);
   return {std::move(network), 1000.0 * seconds};
 }
@@ -124,7 +141,17 @@ void add_map(CLI::App& app, Command& command) {
   CLI::App* sub = map->add_subcommand("build", "Make a network file, which loads fast, from a map");
   add_input(sub, "OpenStreetMap file: .osm.pbf, .osm, .osm.gz or .osm.bz2");
   sub->add_option("NETWORK", options->output, "File to write")->required()->check(writable_file());
+  sub->add_option("--doubts", options->doubts,
+                  "Correct the map by this file of `maploop map doubts`: roads are added, and "
+                  "directions and turns allowed; shifted roads are left")
+      ->check(existing_file());
+  sub->add_option("--doubts-probability", options->min_probability,
+                  "Only by those that are at least so likely")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   sub->callback([options, &command] { command = [options] { return build(*options); }; });
+
+  add_map_doubts(*map, command);
 
   sub = map->add_subcommand("info", "What a map or network file has");
   add_input(sub, "OpenStreetMap file, or a network file of `maploop map build`");

@@ -198,4 +198,26 @@ FaultScore score_fault(const std::vector<MatchedFix>& matched, const NoisyTrack&
   return score;
 }
 
+DoubtScore score_doubts(const std::vector<MapDoubt>& doubts, const NoisyTrack& noisy,
+                        const Labels& labels, std::int64_t way, bool is_missing) {
+  const DoubtKind expected = is_missing ? DoubtKind::missing_road : DoubtKind::wrong_direction;
+  DoubtScore score;
+  for (const MapDoubt& doubt : doubts) {
+    if (!(doubt.probability > 0.5)) continue;
+    bool on_way = false;
+    for (std::size_t i = 0; i < noisy.track.size(); ++i) {
+      const Time t = noisy.track[i].stamp;
+      const auto label = labels.find(noisy.rows[i]);
+      if (doubt.begin <= t && t <= doubt.stamp && label != labels.end())
+        on_way = on_way || label->second.way_id == way;
+    }
+    if (!on_way) {
+      ++score.others;
+    } else if (doubt.kind == expected) {
+      score.found = true;
+    }
+  }
+  return score;
+}
+
 }  // namespace maploop::match

@@ -60,6 +60,17 @@ struct FaultScore {
   double worst_at = 0.0;  // s since the track's start, when longest_sure_wrong ended
 };
 
+// What the doubts of one drive say of a wrong map.
+struct DoubtScore {
+  bool found = false;      // the wrong way is doubted for what is wrong with it
+  std::size_t others = 0;  // doubts of anything else
+};
+
+// Scores the doubts that are likelier than not. `way` is what is wrong (0: nothing): it is missing,
+// or else its direction is wrong.
+DoubtScore score_doubts(const std::vector<MapDoubt>& doubts, const NoisyTrack& track,
+                        const Labels& labels, std::int64_t way, bool is_missing);
+
 // `missing` is the way that the map lacks, or 0; every link matched while the vehicle is on it is
 // wrong.
 FaultScore score_fault(const std::vector<MatchedFix>& matched, const NoisyTrack& track,

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "mapmatch/doubt_collector.h"
 #include "msgs/frames.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/text_lines.h"
@@ -124,10 +125,20 @@ MatchedFix matched_fix(const mapmatch::MatchResult& r, const mapmatch::RoadNetwo
   return on_segment(network, r.link, r.point.vertex, r.probability);
 }
 
-std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& track) {
+std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& track,
+                                    std::vector<MapDoubt>* doubts) {
+  mapmatch::DoubtCollector collector(matcher.network());
+  const auto take = [doubts](std::span<const MapDoubt> some) {
+    if (doubts != nullptr) doubts->insert(doubts->end(), some.begin(), some.end());
+  };
   std::vector<MatchedFix> matched;
-  for (const mapmatch::VehicleFix& fix : track)
-    matched.push_back(matched_fix(matcher.add(fix), matcher.network()));
+  matched.reserve(track.size());
+  for (const mapmatch::VehicleFix& fix : track) {
+    const mapmatch::MatchResult& result = matcher.add(fix);
+    take(collector.add(result, fix));
+    matched.push_back(matched_fix(result, matcher.network()));
+  }
+  take(collector.finish());
   return matched;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mapmatch/matcher.h"
+#include "msgs/map_doubt.h"
 #include "msgs/map_match.h"
 #include "tools/match/track_file.h"
 
@@ -52,8 +53,10 @@ struct MatchedFix {
 };
 MatchedFix matched_fix(const mapmatch::MatchResult& result, const mapmatch::RoadNetwork& network);
 
-// Returns the match of each fix of a track.
-std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& track);
+// Returns the match of each fix of a track; appends what the drive contradicts of the map, likely
+// or not, to `doubts`.
+std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& track,
+                                    std::vector<MapDoubt>* doubts = nullptr);
 
 // The baseline: returns the nearest segment within 100 m whose azimuth differs by at most 50
 // degrees from the vehicle's.

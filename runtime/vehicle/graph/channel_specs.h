@@ -55,6 +55,11 @@ inline constexpr ChannelSpec odometry =
 inline constexpr ChannelSpec map_match = of_data(
     channel_names::map_match, "map_match_t", "mapmatch",
     "phase, link, matched point, P(link), candidates with their rules, reasons in words", "10 Hz");
+inline constexpr ChannelSpec map_doubt = of_data(
+    channel_names::map_doubt, "map_doubt_t", "mapmatch",
+    "what the drive contradicted of the map: missing road, wrong direction, forbidden turn, "
+    "shifted road",
+    "on change");
 inline constexpr ChannelSpec map_feedback =
     of_data(channel_names::map_feedback, "map_feedback_t", "mapmatch",
             "feedback to the filter, or why there was none", "10 Hz");
@@ -100,9 +105,9 @@ inline constexpr ChannelSpec self_calibration =
            "what the filter has estimated of the car and its sensors", "1 Hz");
 
 inline constexpr std::array all{
-    nav_state,    odom_state, visual_odometry, lidar_odometry, odometry,       map_match,
-    map_feedback, imu,        gnss_fix,        ppp_state,      wheel_speed,    truth,
-    camera,       velodyne,   preview,         calibration,    replay_control, run,
-    deadlines,    health,     self_calibration};
+    nav_state,       odom_state, visual_odometry, lidar_odometry, odometry,    map_match, map_doubt,
+    map_feedback,    imu,        gnss_fix,        ppp_state,      wheel_speed, truth,     camera,
+    velodyne,        preview,    calibration,     replay_control, run,         deadlines, health,
+    self_calibration};
 }  // namespace channels
 }  // namespace maploop::vehicle

@@ -16,6 +16,7 @@
 #include "msgs/image.h"
 #include "msgs/imu.h"
 #include "msgs/lidar_scan.h"
+#include "msgs/map_doubt.h"
 #include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
@@ -127,6 +128,7 @@ inline constexpr RingSpec<PppState> ppp_publisher{stages::ppp, publisher, 64};
 inline constexpr RingSpec<FusedState> fusion_publisher{fusion, publisher, 1024};
 inline constexpr RingSpec<FusedState> image_states{fusion, publisher, 256, "at images"};
 inline constexpr RingSpec<MapMatch> mapmatch_publisher{mapmatch, publisher, 64};
+inline constexpr RingSpec<MapDoubt> doubt_publisher{mapmatch, publisher, 16, "doubts"};
 inline constexpr RingSpec<MapFeedback> feedback_publisher{.from = mapmatch,
                                                           .to = publisher,
                                                           .capacity = 64,
@@ -162,8 +164,8 @@ inline constexpr auto all = std::tie(
     camera_publisher, velodyne_publisher, imu_publisher, gnss_publisher, ppp_fix_publisher,
     wheel_publisher, reference_publisher, stereo_publisher, visual_log_publisher, lidar_publisher,
     lidar_log_publisher, lidar_odometry_publisher, stereo_odometry_publisher, odometry_publisher,
-    ppp_publisher, fusion_publisher, image_states, mapmatch_publisher, feedback_publisher,
-    preview_publisher, health_publisher);
+    ppp_publisher, fusion_publisher, image_states, mapmatch_publisher, doubt_publisher,
+    feedback_publisher, preview_publisher, health_publisher);
 }  // namespace rings
 
 // What a thread gives to another on request: the newest value, without blocking.

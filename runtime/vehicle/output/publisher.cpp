@@ -72,6 +72,7 @@ Publisher::Publisher(const VehicleCalibration& calibration, Rings& rings,
     intake_.add(*states, [this](const FusedState& state) { observer_.image_state(state); });
   }
   forward<channels::map_match>(rings::mapmatch_publisher, observer_.map_match);
+  forward<channels::map_doubt>(rings::doubt_publisher);
   forward<channels::map_feedback>(rings::feedback_publisher, observer_.map_feedback);
 }
 

@@ -19,7 +19,9 @@ MapMatchStage::MapMatchStage(Rings& rings, std::shared_ptr<const RoadMap> map,
     : GraphStage(stages::mapmatch, rings),
       map_(std::move(map)),
       matcher_(map_->network, map_->rules, parameters),
+      doubts_(map_->network),
       matches_(outputs(rings::mapmatch_publisher)),
+      doubts_out_(outputs(rings::doubt_publisher)),
       feedbacks_(outputs(rings::mapmatch_fusion, rings::feedback_publisher, rings::mapmatch_ppp)) {
   if (feedback) feedback_.emplace(map_->network, *feedback);
   GraphStage::take(intake_, rings::fusion_mapmatch,
@@ -60,6 +62,7 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   match.sequence = ticks_++;
   counts_.add(match.refusal);
   matches_.push(match, stop);
+  publish_doubts(match, stop);
   if (feedback_) {
     MapFeedback feedback = feedback_->decide(match, mapmatch::fix_of(newest_));
     feedback.available = match.available;
@@ -69,6 +72,16 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   measure(tick, {due, woken, ready, runtime::monotonic_now()}, intake_.waiting(), clock);
   promise(k + spec().period + spec().budget - Duration(1));
   return true;
+}
+
+// Those that are likelier than not.
+void MapMatchStage::publish_doubts(const MapMatch& match, const std::stop_token& stop) {
+  for (MapDoubt doubt : doubts_.add(match, mapmatch::fix_of(newest_))) {
+    if (!(doubt.probability > 0.5)) continue;
+    doubt.available = match.available;
+    doubt.sequence = doubt_count_++;
+    doubts_out_.push(doubt, stop);
+  }
 }
 
 // Nothing after a cut is taken before it is saved.
@@ -90,9 +103,9 @@ void MapMatchStage::save_until(Time t, const std::stop_token& stop) {
 
 template <class Archive>
 void MapMatchStage::archive(Archive& ar) {
-  ar.section(spec().name, 2);
+  ar.section(spec().name, 3);
   bool closed = feedback_.has_value();
-  ar(matcher_, newest_, ticks_, counts_, closed);
+  ar(matcher_, doubts_, newest_, ticks_, doubt_count_, counts_, closed);
   if constexpr (Archive::loading) {
     if (closed != feedback_.has_value())
       ar.fail(closed ? "it was saved with feedback of the map, which is off here"

@@ -31,6 +31,7 @@ CHANNELS = {
     "HEALTH": ("health_t", "scheduling"),
     "IMU": ("imu_t", "yaw_rate"),
     "LIDAR_ODOMETRY": ("lidar_motion_t", "translation"),
+    "MAP_DOUBT": ("map_doubt_t", "explanation"),
     "MAP_FEEDBACK": ("map_feedback_t", "cross_track"),
     "MAP_MATCH": ("map_match_t", "explanation"),
     "NAV_STATE": ("nav_state_t", "origin_latitude"),

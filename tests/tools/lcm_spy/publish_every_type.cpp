@@ -70,6 +70,7 @@ bool publish_all(lcm::LCM& lcm, int tick) {
   match.candidate_count = 1;
   const auto matched = to_lcm(match, {"Moltkestrasse (way 30982311), P 97 %", {}});
   sent = lcm.publish("MAP_MATCH", &matched) == 0 && sent;
+  publish("MAP_DOUBT", sample<MapDoubt>(tick));
   publish("MAP_FEEDBACK", sample<MapFeedback>(tick));
   publish("GNSS_FIX", sample<GnssFix>(tick));
   auto ppp = sample<PppState>(tick);

@@ -1,0 +1,177 @@
+// Tests doubts of several drives: what is joined, what is written and read, and what is corrected.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mapmatch/matcher.h"
+#include "mapmatch/network_file.h"
+#include "msgs/frames.h"
+#include "tests/mapmatch/simulated_drive.h"
+#include "tests/mapmatch/small_map.h"
+#include "tests/support/error_of.h"
+#include "tests/support/real_data.h"
+#include "tools/evaluate/text_file.h"
+#include "tools/match/doubts_file.h"
+#include "tools/match/map_corrections.h"
+#include "tools/match/match_score.h"
+
+namespace maploop::match {
+namespace {
+
+using maploop::testing::one_way;
+using maploop::testing::SmallMap;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+// A street of 1 km from west to east, and a street across its middle to the north, at whose end is
+// a parallel one that only the street in between joins.
+SmallMap ladder(bool with_rung, const mapmatch::Road& rung = {}) {
+  SmallMap map;
+  map.node(1, -500, 0).node(2, 0, 0).node(3, 500, 0);
+  map.node(4, -500, 600).node(5, 0, 600).node(6, 500, 600);
+  map.way(10, {1, 2, 3}).way(30, {4, 5, 6});
+  if (with_rung) map.way(20, {2, 5}, rung);
+  return map;
+}
+
+const Track& up_the_rung() {
+  static const Track track =
+      maploop::testing::drive({{-490, 0}, {0, 0}, {0, 600}, {490, 600}}, 10.0, 10.0);
+  return track;
+}
+
+const mapmatch::RuleBases& the_rules() {
+  static const auto bases = mapmatch::read_rule_bases(mapmatch::default_rules());
+  return bases;
+}
+
+std::vector<MapDoubt> found(const mapmatch::RoadNetwork& network, const Track& track) {
+  mapmatch::Matcher matcher(network, the_rules(), {});
+  std::vector<MapDoubt> doubts;
+  match_track(matcher, track, &doubts);
+  return doubts;
+}
+
+std::vector<PooledDoubt> pooled(const mapmatch::RoadNetwork& network,
+                                const std::vector<Track>& tracks) {
+  DoubtPool pool(network);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    for (const MapDoubt& doubt : found(network, tracks[i]))
+      pool.add(doubt, "drive " + std::to_string(i));
+  }
+  return pool.likelier_than(0.5);
+}
+
+TEST(DoubtPool, JoinsWhatTwoDrivesSayOfTheSameGround) {
+  const auto network = ladder(false).network();
+  const auto doubts = pooled(network, {up_the_rung(), up_the_rung()});
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_EQ(doubts[0].times, 2U);
+  EXPECT_THAT(doubts[0].drives, SizeIs(2));
+  const auto once = pooled(network, {up_the_rung()});
+  ASSERT_THAT(once, SizeIs(1));
+  EXPECT_GT(doubts[0].doubt.probability, once[0].doubt.probability);
+}
+
+TEST(DoubtPool, KeepsTwoRoadsApart) {
+  const auto network = ladder(false).network();
+  const auto elsewhere =
+      maploop::testing::drive({{-490, 0}, {200, 0}, {200, 600}, {490, 600}}, 10.0, 10.0);
+  EXPECT_THAT(pooled(network, {up_the_rung(), elsewhere}), SizeIs(2));
+}
+
+// Positions of 3 m do not show a shift of 8 m, five drives of them do.
+TEST(DoubtPool, OffsetsOfManyDrivesShowAShift) {
+  const auto network = ladder(true).network();
+  Track beside = maploop::testing::drive({{-490, 0}, {490, 0}}, 10.0, 10.0, 8.0);
+  for (auto& fix : beside) fix.covariance = 9.0 * Eigen::Matrix2d::Identity();
+  Track back = maploop::testing::drive({{490, 0}, {-490, 0}}, 10.0, 10.0, -8.0);
+  for (auto& fix : back) fix.covariance = 9.0 * Eigen::Matrix2d::Identity();
+  EXPECT_THAT(pooled(network, {beside}), IsEmpty());
+  const auto doubts = pooled(network, {beside, back, beside, back, beside});
+  ASSERT_THAT(doubts, SizeIs(2)) << "of the links on either side of the junction";
+  EXPECT_EQ(doubts[0].doubt.kind, DoubtKind::shifted_road);
+  EXPECT_NEAR(std::abs(doubts[0].doubt.offset), 8.0, 0.5);
+  EXPECT_NEAR(doubts[0].doubt.offset_sigma, 3.0 / std::sqrt(5.0), 0.01);
+}
+
+class DoubtsFile : public ::testing::Test {
+ public:
+  std::string error_of(const std::string& text) const {
+    evaluation::write_text(file, text);
+    return maploop::testing::error_of([&] { read_doubts(file, 0.0); });
+  }
+
+  maploop::testing::TemporaryFolder folder;
+  std::filesystem::path file = folder.path() / "doubts.geojson";
+};
+
+TEST_F(DoubtsFile, ComesBackWithWhatCorrectsAMap) {
+  const auto network = ladder(false).network();
+  const auto doubts = pooled(network, {up_the_rung()});
+  write_doubts(file, doubts, network);
+  const auto read = read_doubts(file, 0.5);
+  ASSERT_THAT(read, SizeIs(1));
+  EXPECT_EQ(read[0].kind, DoubtKind::missing_road);
+  EXPECT_EQ(read[0].from.way_id, 10);
+  EXPECT_EQ(read[0].to.way_id, 30);
+  ASSERT_EQ(read[0].track_count, doubts[0].doubt.track_count);
+  EXPECT_NEAR(read[0].track[3].latitude, doubts[0].doubt.track[3].latitude, 1e-12);
+  EXPECT_THAT(read_doubts(file, 0.99999), IsEmpty());
+}
+
+TEST_F(DoubtsFile, ErrorsNameTheFileAndWhatIsWrong) {
+  EXPECT_THAT(error_of("{}"), HasSubstr("doubts.geojson"));
+  EXPECT_THAT(error_of("not JSON"), HasSubstr("not a file of 'maploop map doubts'"));
+  EXPECT_THAT(error_of(R"({"features": [{"properties": {"kind": "hole"}}]})"),
+              HasSubstr("there is no kind 'hole'"));
+  EXPECT_THAT(error_of(R"({"features": [{"properties": {"kind": "missing road"}}]})"),
+              HasSubstr("probability"));
+}
+
+TEST(MapCorrections, ARoadThatWasMissingJoinsItsNeighboursAndIsDrivenFromThenOn) {
+  const auto doubts = found(ladder(false).network(), up_the_rung());
+  mapmatch::MapExtract map = ladder(false).extract();
+  const Corrections done = correct(map, doubts);
+  EXPECT_EQ(done.roads, 1U);
+  const mapmatch::RoadNetwork network(mapmatch::build_network(map));
+  EXPECT_THAT(pooled(network, {up_the_rung()}), IsEmpty());
+  mapmatch::Matcher matcher(network, the_rules(), {});
+  for (const MatchedFix& fix : match_track(matcher, up_the_rung())) EXPECT_TRUE(fix.way_id);
+}
+
+TEST(MapCorrections, ADirectionThatWasDrivenIsOpen) {
+  mapmatch::Road down = one_way();
+  std::swap(down.forward, down.backward);
+  mapmatch::MapExtract map = ladder(true, down).extract();
+  const auto doubts = pooled(ladder(true, down).network(), {up_the_rung()});
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_EQ(correct(map, {doubts[0].doubt}).directions, 1U);
+  EXPECT_THAT(pooled(mapmatch::RoadNetwork(mapmatch::build_network(map)), {up_the_rung()}),
+              IsEmpty());
+}
+
+TEST(MapCorrections, ATurnThatWasDrivenIsAllowed) {
+  SmallMap banned = ladder(true);
+  banned.ban(10, 2, 20);
+  const auto doubts = pooled(banned.network(), {up_the_rung()});
+  ASSERT_THAT(doubts, SizeIs(1));
+  mapmatch::MapExtract map = banned.extract();
+  EXPECT_EQ(correct(map, {doubts[0].doubt}).turns, 1U);
+  EXPECT_THAT(map.restrictions, IsEmpty());
+}
+
+TEST(MapCorrections, WhatTheMapHasNoLongerIsLeftAndCounted) {
+  MapDoubt shifted, gone, turn;
+  shifted.kind = DoubtKind::shifted_road;
+  gone.kind = DoubtKind::wrong_direction;
+  gone.from.way_id = 4711;
+  turn.kind = DoubtKind::forbidden_turn;
+  mapmatch::MapExtract map = ladder(true).extract();
+  const Corrections done = correct(map, {shifted, gone, turn, MapDoubt{}});
+  EXPECT_EQ(done.left, 4U);
+  EXPECT_EQ(map.ways.size(), 3U);
+}
+
+}  // namespace
+}  // namespace maploop::match

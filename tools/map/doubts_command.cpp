@@ -1,0 +1,95 @@
+// maploop map doubts: what drives contradict of a map.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mapmatch/matcher.h"
+#include "mapmatch/network_file.h"
+#include "mapmatch/reasons.h"
+#include "tools/command/commands.h"
+#include "tools/command/option_checks.h"
+#include "tools/match/doubts_file.h"
+#include "tools/match/match_score.h"
+#include "tools/match/parameter_settings.h"
+#include "tools/match/track_file.h"
+
+namespace maploop::tools {
+namespace {
+
+struct DoubtOptions {
+  std::filesystem::path map, output;
+  std::vector<std::filesystem::path> tracks;
+  double min_probability = 0.5;
+  std::vector<std::string> set;
+  match::TrackOptions track_options;
+};
+
+int find_doubts(const DoubtOptions& options) {
+  const mapmatch::RoadNetwork network(mapmatch::open_network(options.map));
+  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
+  mapmatch::MatchParameters parameters;
+  match::apply_settings(options.set, parameters);
+  match::DoubtPool pool(network);
+  std::size_t fixes = 0, on_road = 0;
+  for (const std::filesystem::path& file : options.tracks) {
+    std::cerr << fmt::format("\r{}: {}\033[K", fixes, file.filename().string()) << std::flush;
+    mapmatch::Matcher matcher(network, rules, parameters);
+    std::vector<MapDoubt> doubts;
+    const auto matched =
+        match::match_track(matcher, match::read_track(file, options.track_options), &doubts);
+    for (const MapDoubt& doubt : doubts) pool.add(doubt, file.filename().string());
+    fixes += matched.size();
+    on_road += static_cast<std::size_t>(std::count_if(
+        matched.begin(), matched.end(), [](const match::MatchedFix& m) { return m.way_id; }));
+  }
+  std::cerr << "\r\033[K";
+  if (on_road == 0) {
+    throw std::runtime_error("no fix of the tracks is on a road of " + options.map.string() +
+                             ": is it the map of this area? 'maploop match' says why");
+  }
+  const auto found = pool.likelier_than(options.min_probability);
+  std::cout << fmt::format("{} fixes of {} tracks, {} on a road; {} doubts\n", fixes,
+                           options.tracks.size(), on_road, found.size());
+  for (const match::PooledDoubt& pooled : found) {
+    std::cout << fmt::format("{:5.1f} % by {} of {}: {}\n", 100.0 * pooled.doubt.probability,
+                             pooled.drives.size(), options.tracks.size(),
+                             explanation(pooled.doubt, network));
+  }
+  if (!options.output.empty()) match::write_doubts(options.output, found, network);
+  return 0;
+}
+
+}  // namespace
+
+void add_map_doubts(CLI::App& map, Command& command) {
+  auto options = std::make_shared<DoubtOptions>();
+  CLI::App* sub = map.add_subcommand(
+      "doubts",
+      "Find what drives contradict of a map: missing roads, wrong directions, forbidden turns that "
+      "were driven, and shifted roads, each with its probability");
+  sub->add_option("MAP", options->map,
+                  "OpenStreetMap file, or a network file of `maploop map build`")
+      ->required();
+  sub->add_option("TRACK", options->tracks, "Tracks or logs, as for `maploop match`")->required();
+  sub->add_option("-o,--output", options->output,
+                  "Write them to this GeoJSON file, which JOSM opens, and which `maploop map build "
+                  "--doubts` takes")
+      ->check(writable_file());
+  sub->add_option("--min-probability", options->min_probability, "Leave out less likely ones")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub->add_option("--sigma", options->track_options.sigma,
+                  "Metres an axis, of positions whose accuracy the track does not say")
+      ->check(positive_number())
+      ->capture_default_str();
+  sub->add_option("--set", options->set, "NAME=VALUE of a parameter of [mapmatch]");
+  sub->callback([options, &command] { command = [options] { return find_doubts(*options); }; });
+}
+
+}  // namespace maploop::tools
