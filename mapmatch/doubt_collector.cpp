@@ -48,6 +48,7 @@ std::span<const MapDoubt> DoubtCollector::finish() {
   end_away({});
   leave_link();
   before_ = {};
+  last_ = {};
   started_ = false;
   return {found_.data(), found_count_};
 }
@@ -94,11 +95,14 @@ MapDoubt& DoubtCollector::add_doubt(DoubtKind kind, const Visit& visit, double p
 }
 
 void DoubtCollector::follow_away(const LinkMatch& match, const VehicleFix& fix, double metres) {
-  if (match.on_road && match.off_road < leaving) return end_away(segment_of(match));
+  if (match.on_road && match.off_road < leaving) {
+    last_ = segment_of(match);
+    return end_away(last_);
+  }
   if (!away_.there) {
     away_ = {};
     away_.there = true;
-    away_.segment = segment_of(match);
+    away_.segment = match.on_road ? segment_of(match) : last_;
     away_.stretch = DriveStretch(fix.stamp);
   }
   away_.sure = away_.sure || !match.on_road;

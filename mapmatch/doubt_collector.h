@@ -34,7 +34,7 @@ class DoubtCollector {
   // Archives the whole state.
   template <class Archive>
   void archive(Archive& ar) {
-    ar(started_, stamp_, place_, away_, link_, before_);
+    ar(started_, stamp_, place_, away_, link_, last_, before_);
     if constexpr (Archive::loading) {
       const auto check = [&](const MapDoubt::Segment& segment) {
         if (network_->size() > 0 && segment.link.link >= network_->size())
@@ -42,6 +42,7 @@ class DoubtCollector {
       };
       check(away_.segment);
       check(link_.segment);
+      check(last_);
       for (const Driven& driven : before_) check(driven.segment);
     }
   }
@@ -83,6 +84,7 @@ class DoubtCollector {
   Time stamp_{};                                     // of the last fix
   Eigen::Vector2d place_ = Eigen::Vector2d::Zero();  // m, from which the way is measured
   Visit away_, link_;
+  MapDoubt::Segment last_;  // of the road at the last fix that was on one
   // The newest first: near a junction, a link may be matched that was not driven.
   std::array<Driven, 3> before_{};
   std::array<MapDoubt, 4> found_{};

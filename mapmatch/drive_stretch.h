@@ -9,7 +9,9 @@
 
 namespace maploop::mapmatch {
 
-// The track has a point every 10 m; of one longer than there is room for, every second point goes.
+// The track has a point every 10 m. Of one longer than there is room for, the point goes that tells
+// least of its shape: the one that makes the smallest triangle with its neighbours (Visvalingam and
+// Whyatt, "Line generalisation by repeated elimination of points", 1993).
 class DriveStretch {
  public:
   DriveStretch() = default;
@@ -27,18 +29,19 @@ class DriveStretch {
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(begin_, length_, weighted_, next_point_, spacing_, track_, count_);
+    ar(begin_, length_, weighted_, next_point_, track_, count_);
     if constexpr (Archive::loading) {
       if (count_ > track_.size()) ar.fail("a stretch has more points than it has room for");
     }
   }
 
  private:
+  void drop_point();
+
   Time begin_{};
   double length_ = 0.0;      // m
   double weighted_ = 0.0;    // m, the integral of P
   double next_point_ = 0.0;  // m from the begin
-  double spacing_ = 10.0;    // m
   std::array<Geodetic, MapDoubt::max_points> track_{};
   std::size_t count_ = 0;
 };

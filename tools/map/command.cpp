@@ -147,7 +147,7 @@ void add_map(CLI::App& app, Command& command) {
       ->check(existing_file());
   sub->add_option("--doubts-probability", options->min_probability,
                   "Only by those that are at least so likely")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_in(0.0, 1.0))
       ->capture_default_str();
   sub->callback([options, &command] { command = [options] { return build(*options); }; });
 

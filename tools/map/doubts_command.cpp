@@ -38,7 +38,7 @@ int find_doubts(const DoubtOptions& options) {
   match::DoubtPool pool(network);
   std::size_t fixes = 0, on_road = 0;
   for (const std::filesystem::path& file : options.tracks) {
-    std::cerr << fmt::format("\r{}: {}\033[K", fixes, file.filename().string()) << std::flush;
+    std::cerr << "\r\033[K" << file.filename().string() << std::flush;
     mapmatch::Matcher matcher(network, rules, parameters);
     std::vector<MapDoubt> doubts;
     const auto matched =
@@ -82,7 +82,7 @@ void add_map_doubts(CLI::App& map, Command& command) {
                   "--doubts` takes")
       ->check(writable_file());
   sub->add_option("--min-probability", options->min_probability, "Leave out less likely ones")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_in(0.0, 1.0))
       ->capture_default_str();
   sub->add_option("--sigma", options->track_options.sigma,
                   "Metres an axis, of positions whose accuracy the track does not say")

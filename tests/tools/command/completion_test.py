@@ -14,7 +14,7 @@ import sys
 CASES = [
     (["ca"], {"calibrate"}, {"--help"}),
     (["replay", "--lo"], {"--lockstep", "--loop"}, {"replay"}),
-    (["map", ""], {"build", "info"}, {"replay", "--help"}),
+    (["map", ""], {"build", "doubts", "info"}, {"replay", "--help"}),
     (["map", "build", "--b"], {"--box"}, {"build"}),
     (["replay", "a_driv"], {"a_drive.lcmlog"}, {"calibrate", "--lockstep"}),  # a file of the working folder
 ]

@@ -15,7 +15,7 @@ MAPLOOP = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else sys.exit(__
 
 # What reads one file, and what stands before and after its name.
 READERS = ["replay FILE --lockstep --no-lcm", "odometry FILE", "odometry FILE --lidar", "match FILE track.csv", "ppp FILE",
-           "gnss info FILE", "evaluate FILE FILE", "map info FILE", "map build FILE out.net", "log info FILE",
+           "gnss info FILE", "evaluate FILE FILE", "map info FILE", "map build FILE out.net", "map doubts FILE track.csv", "log info FILE",
            "log split FILE -o out", "log merge FILE -o out", "log recover FILE -o out", "profile FILE",
            "spy FILE --once", "sensors pcap FILE", "odometry FILE --json x.json",
            "calibrate FILE --board 9x6 --square 0.1", "doctor --config FILE", "replay FILE --config FILE",
@@ -117,7 +117,7 @@ class FirstLook(unittest.TestCase):
 
     def test_a_result_that_cannot_be_written_is_said_before_the_work(self):
         for line in ("replay x --lockstep --json", "replay x --report", "odometry folder --poses", "ppp x --pos",
-                     "match x y --html", "evaluate x y --csv", "log split x -o", "map build x"):
+                     "match x y --html", "evaluate x y --csv", "log split x -o", "map build x", "map doubts x y -o"):
             self.expect(line + " no/such/folder/out", 1, "no/such/folder/out", "there is no folder 'no/such/folder'")
             self.expect(line + " folder", 1, "it is a folder")
 
