@@ -73,9 +73,10 @@ std::vector<std::string> objections(const MatchCandidate& c, const RoadNetwork& 
     } else if (c.connectivity < 0.8) {
       found.emplace_back("no legal turn leads there");
     }
-    if (c.connectivity >= 0.2 && c.distance_error > notable_distance_error)
+    if (c.connectivity >= 0.2 && c.distance_error > notable_distance_error) {
       found.push_back("the way there differs by " + rounded(c.distance_error) +
                       " m from the distance travelled");
+    }
   }
   return found;
 }
@@ -84,9 +85,10 @@ std::vector<std::pair<std::string, double>> fired_rules(const MatchCandidate& c,
                                                         const RuleBases& rules) {
   const FuzzySystem& system = system_of(c.rules, rules);
   std::vector<std::pair<std::string, double>> fired;
-  for (std::size_t i = 0; i < system.rules().size(); ++i)
+  for (std::size_t i = 0; i < system.rules().size(); ++i) {
     if (c.weights[i] > notable_weight)
       fired.emplace_back(system.rules()[i].text, static_cast<double>(c.weights[i]));
+  }
   std::stable_sort(fired.begin(), fired.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   return fired;

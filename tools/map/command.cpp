@@ -31,9 +31,10 @@ struct MapOptions {
   mapmatch::OsmOptions osm() const {
     mapmatch::OsmOptions options;
     if (box.empty()) return options;
-    if (box[0] >= box[2] || box[1] >= box[3])
+    if (box[0] >= box[2] || box[1] >= box[3]) {
       throw std::runtime_error(
           "--box wants WEST,SOUTH,EAST,NORTH, west of east and south of north");
+    }
     options.box = {box[0], box[1], box[2], box[3]};
     return options;
   }

@@ -14,7 +14,8 @@ constexpr double near_share = 0.7;  // of the points of the shorter track
 double distance_to_track(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& track) {
   double least = (p - track.front()).norm();
   for (std::size_t i = 1; i < track.size(); ++i) {
-    const Eigen::Vector2d a = track[i - 1], along = track[i] - a;
+    const Eigen::Vector2d& a = track[i - 1];
+    const Eigen::Vector2d along = track[i] - a;
     const double length = along.squaredNorm();
     const double share = length > 0.0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
     least = std::min(least, (p - a - share * along).norm());

@@ -54,9 +54,10 @@ MapDoubt read_feature(const json& feature) {
   doubt.from.way_id = p.at("way").get<std::int64_t>();
   doubt.to.way_id = p.at("to_way").get<std::int64_t>();
   for (const json& point : feature.at("geometry").at("coordinates")) {
-    if (doubt.track_count == MapDoubt::max_points)
+    if (doubt.track_count == MapDoubt::max_points) {
       throw std::runtime_error("a line has more than " + std::to_string(MapDoubt::max_points) +
                                " points");
+    }
     doubt.track[doubt.track_count++] = {radians(point.at(1).get<double>()),
                                         radians(point.at(0).get<double>()), 0.0};
   }

@@ -26,9 +26,10 @@ MapMatchStage::MapMatchStage(Rings& rings, std::shared_ptr<const RoadMap> map,
   if (feedback) feedback_.emplace(map_->network, *feedback);
   GraphStage::take(intake_, rings::fusion_mapmatch,
                    [this](const NavState& state) { newest_ = state; });
-  for (const auto* visual : {&rings::stereo_mapmatch, &rings::visual_log_mapmatch})
+  for (const auto* visual : {&rings::stereo_mapmatch, &rings::visual_log_mapmatch}) {
     GraphStage::take(intake_, *visual,
                      [this](const RelativeMotion& motion) { matcher_.add(motion); });
+  }
 }
 
 void MapMatchStage::run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) {
@@ -107,9 +108,10 @@ void MapMatchStage::archive(Archive& ar) {
   bool closed = feedback_.has_value();
   ar(matcher_, doubts_, newest_, ticks_, doubt_count_, counts_, closed);
   if constexpr (Archive::loading) {
-    if (closed != feedback_.has_value())
+    if (closed != feedback_.has_value()) {
       ar.fail(closed ? "it was saved with feedback of the map, which is off here"
                      : "it was saved without feedback of the map, which is on here");
+    }
   }
   if (feedback_) ar(*feedback_);
 }
