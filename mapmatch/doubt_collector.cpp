@@ -9,7 +9,7 @@
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double max_gap = 10.0;      // s between two fixes of one drive
+constexpr double beyond_the_map = 100.0;  // m
 constexpr double leaving = 0.1;       // P(off road) at which the vehicle may have left the roads
 constexpr double min_away = 30.0;     // m, shorter ways off the roads are entrances and car parks
 constexpr double min_against = 20.0;  // m against a one-way direction
@@ -32,6 +32,17 @@ double probability_of_shift(double offset, double sigma, double half_width) {
   };
   const double shifted = shifted_share * density(shift_sigma);
   return shifted / (shifted + (1.0 - shifted_share) * density(0.5 * half_width));
+}
+
+DoubtCollector::DoubtCollector(const RoadNetwork& network, const MatchParameters& parameters)
+    : network_(&network), max_gap_(from_seconds(parameters.max_gap)) {
+  area_ = {1e9, 1e9, -1e9, -1e9};
+  for (const Vertex& v : network.data().vertices) {
+    area_ = {std::min(area_.west, v.east - beyond_the_map),
+             std::min(area_.south, v.north - beyond_the_map),
+             std::max(area_.east, v.east + beyond_the_map),
+             std::max(area_.north, v.north + beyond_the_map)};
+  }
 }
 
 std::span<const MapDoubt> DoubtCollector::add(const LinkMatch& match, const VehicleFix& fix) {
@@ -57,7 +68,7 @@ std::span<const MapDoubt> DoubtCollector::finish() {
 double DoubtCollector::advance(const VehicleFix& fix) {
   const Eigen::Vector2d place = network_->to_local(fix.position);
   const double interval = to_seconds(fix.stamp - stamp_);
-  if (!started_ || interval > max_gap) {
+  if (!started_ || fix.stamp - stamp_ > max_gap_) {
     if (started_) finish();
     started_ = true;
     stamp_ = fix.stamp;
@@ -65,7 +76,10 @@ double DoubtCollector::advance(const VehicleFix& fix) {
     return 0.0;
   }
   stamp_ = fix.stamp;
-  if (std::isfinite(fix.speed)) return std::max(fix.speed, 0.0) * interval;
+  if (std::isfinite(fix.speed)) {
+    place_ = place;
+    return std::max(fix.speed, 0.0) * interval;
+  }
   // Positions move by their noise, too.
   const double moved = (place - place_).norm();
   if (moved < least_step) return 0.0;
@@ -73,13 +87,12 @@ double DoubtCollector::advance(const VehicleFix& fix) {
   return moved;
 }
 
-MapDoubt::Segment DoubtCollector::segment_of(const LinkMatch& match) const {
-  if (!match.on_road) return {};
+MapDoubt::Segment DoubtCollector::segment_at(DirectedLink link, double along) const {
   MapDoubt::Segment segment;
-  const std::uint32_t vertex = network_->at(match.link, match.along).vertex;
-  segment.link = match.link;
+  const std::uint32_t vertex = network_->at(link, along).vertex;
+  segment.link = link;
   segment.way_id = network_->road_at(vertex).way_id;
-  std::tie(segment.node_a, segment.node_b) = network_->nodes(match.link, vertex);
+  std::tie(segment.node_a, segment.node_b) = network_->nodes(link, vertex);
   return segment;
 }
 
@@ -96,13 +109,15 @@ MapDoubt& DoubtCollector::add_doubt(DoubtKind kind, const Visit& visit, double p
 
 void DoubtCollector::follow_away(const LinkMatch& match, const VehicleFix& fix, double metres) {
   if (match.on_road && match.off_road < leaving) {
-    last_ = segment_of(match);
+    last_ = segment_at(match.link, match.along);
     return end_away(last_);
   }
+  const Eigen::Vector2d place = network_->to_local(fix.position);
+  if (!area_.meets({place.x(), place.y(), place.x(), place.y()})) return end_away({});
   if (!away_.there) {
     away_ = {};
     away_.there = true;
-    away_.segment = match.on_road ? segment_of(match) : last_;
+    away_.segment = match.on_road ? segment_at(match.link, match.along) : last_;
     away_.stretch = DriveStretch(fix.stamp);
   }
   away_.sure = away_.sure || !match.on_road;
@@ -125,7 +140,7 @@ void DoubtCollector::follow_link(const LinkMatch& match, const VehicleFix& fix, 
   if (!link_.there || !(link_.segment.link == match.link)) {
     leave_link();
     link_.there = true;
-    link_.segment = segment_of(match);
+    link_.segment = segment_at(match.link, match.along);
     link_.stretch = DriveStretch(fix.stamp);
   }
   link_.stretch.add(fix.position, metres, match.probability);
@@ -166,8 +181,10 @@ void DoubtCollector::judge_turn(const Visit& to) {
   if (from == before_.end() || network_->allowed_turn(from->segment.link, into)) return;
   MapDoubt& doubt =
       add_doubt(DoubtKind::forbidden_turn, to, from->probability * to.stretch.probability());
-  doubt.from = from->segment;
-  doubt.to = to.segment;
+  // A link may have several ways: those of a restriction meet at the junction.
+  const DirectedLink out = from->segment.link;
+  doubt.from = segment_at(out, network_->link(out.link).length);
+  doubt.to = segment_at(into, 0.0);
 }
 
 void DoubtCollector::judge_offset(const Visit& visit) {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "mapmatch/drive_stretch.h"
+#include "mapmatch/match_parameters.h"
 #include "mapmatch/match_result.h"
 #include "msgs/map_doubt.h"
 
@@ -21,8 +22,9 @@ double probability_of_shift(double offset, double sigma, double half_width);
 // stamps.
 class DoubtCollector {
  public:
-  // The network must outlive this object.
-  explicit DoubtCollector(const RoadNetwork& network) : network_(&network) {}
+  // The network must outlive this object. The parameters are those of the matcher; without paths it
+  // has no probabilities, and every doubt is unlikely.
+  DoubtCollector(const RoadNetwork& network, const MatchParameters& parameters);
 
   // Takes each match with its fix, in the order of stamps; a match that was refused is passed over.
   // Returns the doubts that ended with it, unlikely ones too; `available` and `sequence` are the
@@ -36,14 +38,14 @@ class DoubtCollector {
   void archive(Archive& ar) {
     ar(started_, stamp_, place_, away_, link_, last_, before_);
     if constexpr (Archive::loading) {
-      const auto check = [&](const MapDoubt::Segment& segment) {
-        if (network_->size() > 0 && segment.link.link >= network_->size())
+      const auto check = [&](const MapDoubt::Segment& segment, bool there) {
+        if ((there || segment.way_id != 0) && segment.link.link >= network_->size())
           ar.fail("a link that was driven does not exist");
       };
-      check(away_.segment);
-      check(link_.segment);
-      check(last_);
-      for (const Driven& driven : before_) check(driven.segment);
+      check(away_.segment, false);
+      check(link_.segment, link_.there);
+      check(last_, false);
+      for (const Driven& driven : before_) check(driven.segment, false);
     }
   }
 
@@ -69,7 +71,7 @@ class DoubtCollector {
   };
 
   double advance(const VehicleFix& fix);
-  MapDoubt::Segment segment_of(const LinkMatch& match) const;
+  MapDoubt::Segment segment_at(DirectedLink link, double along) const;
   void follow_away(const LinkMatch& match, const VehicleFix& fix, double metres);
   void follow_link(const LinkMatch& match, const VehicleFix& fix, double metres);
   void measure_offset(const LinkMatch& match, const VehicleFix& fix, double metres);
@@ -80,6 +82,8 @@ class DoubtCollector {
   MapDoubt& add_doubt(DoubtKind kind, const Visit& visit, double probability);
 
   const RoadNetwork* network_;
+  Duration max_gap_;
+  Box area_;  // m, of all roads, and a margin
   bool started_ = false;
   Time stamp_{};                                     // of the last fix
   Eigen::Vector2d place_ = Eigen::Vector2d::Zero();  // m, from which the way is measured

@@ -34,6 +34,10 @@ class Matcher {
 
   // Returns the network that was given to the constructor.
   const RoadNetwork& network() const { return *network_; }
+  // Returns the parameters that were given to the constructor.
+  const MatchParameters& parameters() const { return parameters_; }
+  // Returns the path hypotheses after the last fix; there are none with the rules alone.
+  const PathFilter& paths() const { return paths_; }
   // Returns the rules that were given to the constructor.
   const RuleBases& rules() const { return *rules_; }
 

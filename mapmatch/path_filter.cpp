@@ -34,6 +34,7 @@ void PathFilter::reset() {
 void PathFilter::step(const PathEvidence& e, const NearLinks& near) {
   const double keep = std::exp(-e.motion.interval / parameters_->memory);
   for (std::size_t i = 0; i < count_; ++i) {
+    hypotheses_[i].parent = static_cast<std::uint32_t>(i);
     hypotheses_[i].log_weight *= keep;
     kalman_.predict(hypotheses_[i], e);
   }

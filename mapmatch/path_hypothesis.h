@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <cmath>
+#include <cstdint>
 
 #include "mapmatch/road_network.h"
 
@@ -14,6 +15,8 @@ namespace maploop::mapmatch {
 // north) of the fixes from the road, which consists of the map's error and the slow part of the
 // fixes' errors.
 struct PathHypothesis {
+  static constexpr std::uint32_t no_parent = 0xffffffff;  // it was new at the last fix
+
   DirectedLink link, previous, next;
   bool has_previous = false, has_next = false;
   bool turned_round = false;  // a U-turn hypothesis was already derived from it here
@@ -24,6 +27,8 @@ struct PathHypothesis {
   double trust = 0.0;       // -ln odds that this is a road that the map lacks, if the link fits
   // These are its misfits at the last fix, in sigmas squared.
   double offset_misfit = 0.0, azimuth_misfit = 0.0;
+  // The index that its path had among the hypotheses before the last fix; it is not archived.
+  std::uint32_t parent = no_parent;
 
   double sigma() const { return std::sqrt(covariance(0, 0)); }
 };

@@ -125,7 +125,7 @@ class ReducedImuFilter {
   // Returns what the filter has estimated of the vehicle; each sigma is 0 before the start.
   SelfCalibrations calibration() const;
 
-  // Takes over the state of a filter with the same parameters; keeps its own status, but counts it.
+  // Takes over the state of a filter with the same parameters; keeps its own counts, and adds one.
   void take_over(const ReducedImuFilter& other);
 
   // Returns the state at `t` from all measurements known now with a stamp <= t (and from the

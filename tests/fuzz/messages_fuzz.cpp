@@ -27,9 +27,10 @@ namespace {
 template <class Message>
 void decode(std::span<const std::uint8_t> bytes) {
   std::vector<std::uint8_t> whole;
-  for (int shift = 56; shift >= 0; shift -= 8)
+  for (int shift = 56; shift >= 0; shift -= 8) {
     whole.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(Message::getHash()) >>
                                               static_cast<unsigned>(shift)));
+  }
   whole.insert(whole.end(), bytes.begin(), bytes.end());
   Message message{};
   if (!schema::checked_decode(schema::own_schema(), whole, message)) return;

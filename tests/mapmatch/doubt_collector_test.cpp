@@ -29,7 +29,7 @@ using ::testing::SizeIs;
 // Returns what is likelier than not.
 std::vector<MapDoubt> doubts(const RoadNetwork& network, const std::vector<VehicleFix>& fixes) {
   Matcher matcher(network, rules(), {});
-  DoubtCollector collector(network);
+  DoubtCollector collector(network, {});
   std::vector<MapDoubt> all;
   const auto take = [&](std::span<const MapDoubt> some) {
     for (const MapDoubt& doubt : some)
@@ -148,12 +148,64 @@ TEST(DoubtCollector, WithoutASpeedTheWayIsThatOfThePositions) {
   EXPECT_NEAR(found[0].length, 480.0, 60.0);
 }
 
+TEST(DoubtCollector, ATurnNamesTheWaysAtItsJunction) {
+  SmallMap map;
+  map.node(1, -500, 0).node(7, -250, 0).node(2, 0, 0).node(3, 500, 0).node(4, 0, 500);
+  map.way(11, {1, 7}).way(10, {7, 2}).way(12, {2, 3}).way(20, {2, 4}).ban(10, 2, 20);
+  const auto found = doubts(map.network(), drive({{-490, 0}, {0, 0}, {0, 490}}, 10.0, 10.0));
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].kind, DoubtKind::forbidden_turn);
+  EXPECT_EQ(found[0].from.way_id, 10);
+  EXPECT_EQ(found[0].to.node_a, 2);
+}
+
+TEST(DoubtCollector, OutsideOfTheMapNothingIsMissing) {
+  const auto found =
+      doubts(side_street().network(), drive({{-490, 0}, {500, 0}, {9000, 0}}, 20.0, 10.0));
+  for (const MapDoubt& doubt : found) EXPECT_LT(doubt.length, 150.0);
+}
+
+TEST(DoubtCollector, ASpeedThatIsUnknownOnceAddsNoWay) {
+  auto fixes = drive({{0, 490}, {0, 0}, {490, 0}}, 10.0, 10.0);
+  fixes[200].speed = unknown;
+  const auto found = doubts(side_street(one_way()).network(), fixes);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_NEAR(found[0].length, 480.0, 60.0);
+}
+
+TEST(DoubtCollector, GoesOnAsLongAsTheMatcherDoes) {
+  const auto network = side_street(one_way()).network();
+  const auto fixes = drive({{0, 490}, {0, 0}, {490, 0}}, 10.0, 1.0 / 15.0);
+  for (const double max_gap : {10.0, 20.0}) {
+    MatchParameters parameters;
+    parameters.max_gap = max_gap;
+    Matcher matcher(network, rules(), parameters);
+    DoubtCollector collector(network, parameters);
+    std::size_t found = 0;
+    for (const VehicleFix& fix : fixes) found += collector.add(matcher.add(fix), fix).size();
+    EXPECT_EQ(found > 0, max_gap > 15.0) << max_gap;
+  }
+}
+
+TEST(DoubtCollector, RefusesArchivesThatAreBroken) {
+  const RoadNetwork network = side_street(one_way()).network();
+  Matcher matcher(network, rules(), {});
+  DoubtCollector collector(network, {});
+  for (const VehicleFix& fix : drive({{0, 490}, {0, 100}}, 10.0, 10.0))
+    collector.add(matcher.add(fix), fix);
+  const auto archive = maploop::testing::saved(collector);
+  maploop::testing::expect_refuses_broken(archive, collector);
+  const RoadNetwork empty{NetworkData{}};
+  DoubtCollector other(empty, {});
+  EXPECT_THAT(maploop::testing::refusal(archive, other), ::testing::HasSubstr("does not exist"));
+}
+
 TEST(DoubtCollector, GoesOnFromAnArchiveWithTheSameBits) {
   const RoadNetwork network = side_street(one_way()).network();
   const auto fixes = drive({{0, 490}, {0, 0}, {490, 0}, {490, 500}}, 10.0, 10.0);
   Matcher matcher(network, rules(), {});
-  DoubtCollector whole(network);
-  DoubtCollector resumed(network);
+  DoubtCollector whole(network, {});
+  DoubtCollector resumed(network, {});
   std::size_t found = 0;
   for (std::size_t i = 0; i < fixes.size(); ++i) {
     const MatchResult& match = matcher.add(fixes[i]);
@@ -176,7 +228,7 @@ TEST(DoubtCollector, AllocatesNothing) {
   const RoadNetwork network = side_street(one_way()).network();
   const auto fixes = drive({{0, 490}, {0, 0}, {490, 0}, {490, 500}}, 10.0, 10.0);
   Matcher matcher(network, rules(), {});
-  DoubtCollector collector(network);
+  DoubtCollector collector(network, {});
   const long before = maploop::testing::thread_allocations();
   for (const VehicleFix& fix : fixes) collector.add(matcher.add(fix), fix);
   EXPECT_EQ(maploop::testing::thread_allocations(), before);

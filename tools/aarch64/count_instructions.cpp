@@ -2,6 +2,7 @@
 // interface): it writes how many instructions the threads of each name have executed, as lines
 // "NAME INSTRUCTIONS", to the file that `out=FILE` names.
 #include <pthread.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstddef>
@@ -11,8 +12,9 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 
-// What of the interface is used here: Debian has no package with its header.
+// This is the part of the interface that is used here, as Debian has no package with its header.
 extern "C" {
 using qemu_plugin_id_t = std::uint64_t;
 struct qemu_plugin_tb;
@@ -36,13 +38,22 @@ int qemu_plugin_install(qemu_plugin_id_t, const qemu_info_t*, int, char**);
 
 namespace {
 
-// The emulator gives each thread a number, and each writes only its own count.
+// The emulator gives each thread a number, of which each counts for itself. The number of a thread
+// that has ended is given to another.
 struct alignas(64) Thread {
   std::uint64_t instructions;
+  pid_t id;
   std::array<char, 16> name;
 };
 std::array<Thread, 4096> threads;
+std::mutex mutex;
+std::map<std::string, std::uint64_t> of_name;  // guarded by `mutex`
 std::string file;
+
+void add_count(Thread& thread) {
+  const std::lock_guard lock(mutex);
+  of_name[thread.name.data()] += std::exchange(thread.instructions, 0);
+}
 
 void execute(unsigned int thread, void* instructions) {
   threads.at(thread).instructions += reinterpret_cast<std::uintptr_t>(instructions);
@@ -57,24 +68,26 @@ void translate(qemu_plugin_id_t, qemu_plugin_tb* block) {
 
 // A thread of the program is one of the emulator, which has the same name: it is read at each call
 // of the system, as the last one of a thread comes after it has taken its name.
-void call_system(qemu_plugin_id_t, unsigned int thread, std::int64_t, std::uint64_t, std::uint64_t,
+void call_system(qemu_plugin_id_t, unsigned int number, std::int64_t, std::uint64_t, std::uint64_t,
                  std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t,
                  std::uint64_t) {
-  auto& name = threads.at(thread).name;
-  pthread_getname_np(pthread_self(), name.data(), name.size());
+  Thread& thread = threads.at(number);
+  if (thread.id != gettid()) {
+    add_count(thread);
+    thread.id = gettid();
+  }
+  pthread_getname_np(pthread_self(), thread.name.data(), thread.name.size());
 }
 
 void write_counts(qemu_plugin_id_t, void*) {
-  std::map<std::string_view, std::uint64_t> of_name;
-  for (const Thread& t : threads) {
-    if (t.instructions > 0) of_name[t.name.data()] += t.instructions;
-  }
+  for (Thread& thread : threads) add_count(thread);
   std::FILE* out = std::fopen(file.c_str(), "w");
   if (!out) return std::perror(file.c_str());
   for (const auto& [name, instructions] : of_name) {
-    std::fprintf(out, "%s %llu\n", name.data(), static_cast<unsigned long long>(instructions));
+    if (!name.empty())
+      std::fprintf(out, "%s %llu\n", name.c_str(), static_cast<unsigned long long>(instructions));
   }
-  std::fclose(out);
+  if (std::fclose(out) != 0) std::perror(file.c_str());
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ struct FaultScores {
   double p_sum = 0.0;
   std::size_t fixes = 0, said = 0, sure = 0;
   std::size_t found = 0, others = 0;  // doubts
+  bool has_way = false;               // whether there is a wrong way to be found
   std::string worst;
 
   void add(const match::FaultScore& score, const match::DoubtScore& doubts,
@@ -45,6 +46,7 @@ struct FaultScores {
     ++cases;
     found += doubts.found ? 1 : 0;
     others += doubts.others;
+    has_way = has_way || way != 0;
     over += score.longest_sure_wrong > 3.0 ? 1 : 0;
     late += score.recovery > 150.0 ? 1 : 0;
     recovery = std::max(recovery, score.recovery);
@@ -65,17 +67,18 @@ struct FaultScores {
       return number(100.0 * static_cast<double>(count) / static_cast<double>(fixes), digits);
     };
     const auto answers = static_cast<double>(std::max<std::size_t>(1, said));
-    return {std::to_string(cases),
-            number(longest, 1),
-            std::to_string(over),
-            number(recovery, 0),
-            std::to_string(late),
-            of_fixes(said, 1),
-            of_fixes(sure, 2),
-            fixes == 0 ? "-" : number(p_sum / answers, 2),
-            number(100.0 * static_cast<double>(found) / static_cast<double>(cases), 1),
-            number(static_cast<double>(others) / static_cast<double>(cases), 2),
-            worst};
+    return {
+        std::to_string(cases),
+        number(longest, 1),
+        std::to_string(over),
+        number(recovery, 0),
+        std::to_string(late),
+        of_fixes(said, 1),
+        of_fixes(sure, 2),
+        fixes == 0 ? "-" : number(p_sum / answers, 2),
+        has_way ? number(100.0 * static_cast<double>(found) / static_cast<double>(cases), 1) : "-",
+        number(static_cast<double>(others) / static_cast<double>(cases), 2),
+        worst};
   }
 };
 
@@ -142,7 +145,7 @@ int fault_experiment(const RecordedDriveOptions& options) {
           if (wrong.seed > 0 && tracks.size() > 1 && wrong.seed != i + 1) continue;
           mapmatch::Matcher matcher(wrong.network, rules, parameters);
           std::vector<MapDoubt> doubts;
-          const auto matched = match::match_track(matcher, tracks[i].track, &doubts);
+          const auto matched = match::match_track(matcher, tracks[i].track, {.doubts = &doubts});
           const match::FaultScore score =
               match::score_fault(matched, tracks[i], drive.labels, wrong.missing);
           const match::DoubtScore doubted =

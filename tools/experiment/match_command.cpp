@@ -20,13 +20,15 @@
 namespace maploop::tools {
 namespace {
 
+constexpr Duration lag = std::chrono::seconds(3);
+
 struct MatchExperimentOptions : RecordedDriveOptions {
   std::filesystem::path json;
   bool each = false;
 };
 
 struct Scores {
-  match::MatchScore ours, baseline;
+  match::MatchScore ours, lagged, whole, baseline;
   double seconds = 0.0;
   std::size_t fixes = 0;
 };
@@ -44,8 +46,12 @@ experiments::Row row_of(const std::string& name, const Scores& s) {
   return {name,
           std::to_string(s.ours.all.fixes),
           percent(s.ours.all.share()),
+          percent(s.lagged.all.share()),
+          percent(s.whole.all.share()),
           percent(s.baseline.all.share()),
           percent(s.ours.certain.share()),
+          percent(s.lagged.certain.share()),
+          percent(s.whole.certain.share()),
           percent(s.baseline.certain.share()),
           percent(s.ours.all.coverage()),
           percent(s.baseline.all.coverage()),
@@ -73,11 +79,18 @@ std::vector<ConditionScores> run(const MatchExperimentOptions& options,
         const auto start = std::chrono::steady_clock::now();
         const auto matched = match::match_track(matcher, noisy.track);
         const double seconds = to_seconds(std::chrono::steady_clock::now() - start);
+        mapmatch::Matcher again(network, rules, parameters);
+        mapmatch::MatchHistory history(network);
+        match::match_track(again, noisy.track, {.history = &history});
+        const auto lagged = match::match_later(history, lag, network);
+        const auto whole = match::match_later(history, Duration::max(), network);
         const auto nearest = match::nearest_segments(network, noisy.track);
         for (Scores* s : {&own, &scores[c].pooled}) {
           s->seconds += seconds;
           s->fixes += noisy.track.size();
           s->ours.add(matched, noisy.rows, drive.labels);
+          s->lagged.add(lagged, noisy.rows, drive.labels);
+          s->whole.add(whole, noisy.rows, drive.labels);
           s->baseline.add(nearest, noisy.rows, drive.labels);
         }
       }
@@ -90,10 +103,12 @@ std::vector<ConditionScores> run(const MatchExperimentOptions& options,
 int match_experiment(const MatchExperimentOptions& options) {
   const auto conditions = match::input_conditions();
   const auto scores = run(options, conditions);
-  experiments::Table table{"Fixes on the right way, and of the nearest segment (base)",
-                           {"input", "fixes", "all frames %", "base", "conf = 1 %", "base",
-                            "coverage %", "base", "wrong / base", "us a fix"},
-                           {}};
+  experiments::Table table{
+      "Fixes on the right way: at once, 3 s later, after the drive, and of the nearest segment "
+      "(base)",
+      {"input", "fixes", "all frames %", "lag", "whole", "base", "conf = 1 %", "lag", "whole",
+       "base", "coverage %", "base", "wrong / base", "us a fix"},
+      {}};
   nlohmann::json json;
   match::Reliability reliability;
   for (std::size_t c = 0; c < conditions.size(); ++c) {
@@ -102,6 +117,8 @@ int match_experiment(const MatchExperimentOptions& options) {
     const Scores& pooled = scores[c].pooled;
     table.rows.push_back(row_of(conditions[c].name, pooled));
     json[conditions[c].name] = {{"ours", match::to_json(pooled.ours)},
+                                {"lag 3 s", match::to_json(pooled.lagged)},
+                                {"whole", match::to_json(pooled.whole)},
                                 {"baseline", match::to_json(pooled.baseline)}};
     reliability += pooled.ours.reliability;
   }

@@ -142,12 +142,16 @@ void add_map(CLI::App& app, Command& command) {
   CLI::App* sub = map->add_subcommand("build", "Make a network file, which loads fast, from a map");
   add_input(sub, "OpenStreetMap file: .osm.pbf, .osm, .osm.gz or .osm.bz2");
   sub->add_option("NETWORK", options->output, "File to write")->required()->check(writable_file());
-  sub->add_option("--doubts", options->doubts,
-                  "Correct the map by this file of `maploop map doubts`: roads are added, and "
-                  "directions and turns allowed; shifted roads are left")
-      ->check(existing_file());
+  CLI::Option* doubts =
+      sub->add_option(
+             "--doubts", options->doubts,
+             "Correct the map by this file of `maploop map doubts`: missing roads are "
+             "added, whole ways opened in both directions, and turns allowed; shifted roads "
+             "are left")
+          ->check(existing_file());
   sub->add_option("--doubts-probability", options->min_probability,
                   "Only by those that are at least so likely")
+      ->needs(doubts)
       ->check(number_in(0.0, 1.0))
       ->capture_default_str();
   sub->callback([options, &command] { command = [options] { return build(*options); }; });

@@ -35,15 +35,20 @@ int find_doubts(const DoubtOptions& options) {
   const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
   mapmatch::MatchParameters parameters;
   match::apply_settings(options.set, parameters);
+  if (!parameters.paths) {
+    throw std::runtime_error(
+        "paths = false leaves the rules alone, which give no probabilities of a link: doubts need "
+        "the paths");
+  }
   match::DoubtPool pool(network);
   std::size_t fixes = 0, on_road = 0;
   for (const std::filesystem::path& file : options.tracks) {
     std::cerr << "\r\033[K" << file.filename().string() << std::flush;
     mapmatch::Matcher matcher(network, rules, parameters);
     std::vector<MapDoubt> doubts;
-    const auto matched =
-        match::match_track(matcher, match::read_track(file, options.track_options), &doubts);
-    for (const MapDoubt& doubt : doubts) pool.add(doubt, file.filename().string());
+    const auto matched = match::match_track(matcher, match::read_track(file, options.track_options),
+                                            {.doubts = &doubts});
+    for (const MapDoubt& doubt : doubts) pool.add(doubt, file.string());
     fixes += matched.size();
     on_road += static_cast<std::size_t>(std::count_if(
         matched.begin(), matched.end(), [](const match::MatchedFix& m) { return m.way_id; }));
@@ -76,7 +81,9 @@ void add_map_doubts(CLI::App& map, Command& command) {
   sub->add_option("MAP", options->map,
                   "OpenStreetMap file, or a network file of `maploop map build`")
       ->required();
-  sub->add_option("TRACK", options->tracks, "Tracks or logs, as for `maploop match`")->required();
+  sub->add_option("TRACK", options->tracks,
+                  "Tracks or logs, as for `maploop match`, but for TUM in a local frame")
+      ->required();
   sub->add_option("-o,--output", options->output,
                   "Write them to this GeoJSON file, which JOSM opens, and which `maploop map build "
                   "--doubts` takes")

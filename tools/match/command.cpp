@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "mapmatch/match_history.h"
 #include "mapmatch/network_file.h"
 #include "msgs/frames.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
+#include "tools/match/driven_route.h"
 #include "tools/match/match_output.h"
 #include "tools/match/match_score.h"
 #include "tools/match/parameter_settings.h"
@@ -21,8 +23,12 @@
 namespace maploop::tools {
 namespace {
 
+constexpr double longest_lag = 10.0;  // s; METHOD.md tells why
+
 struct MatchOptions {
-  std::filesystem::path map, track, csv, geojson, gpx, html, rules, labels;
+  std::filesystem::path map, track, csv, geojson, gpx, html, route, rules, labels;
+  double lag = 0.0;    // s
+  bool whole = false;  // by the fixes of the longest lag
   std::vector<double> origin, box;
   std::vector<std::string> set;
   match::TrackOptions track_options;
@@ -66,9 +72,10 @@ void print_score(const match::MatchedTrack& track, const mapmatch::RoadNetwork& 
 }
 
 int match_track(MatchOptions options) {
-  if (!options.origin.empty())
+  if (!options.origin.empty()) {
     options.track_options.origin =
         Geodetic{radians(options.origin[0]), radians(options.origin[1]), 0.0};
+  }
   mapmatch::OsmOptions osm;
   if (!options.box.empty())
     osm.box = {options.box[0], options.box[1], options.box[2], options.box[3]};
@@ -81,18 +88,23 @@ int match_track(MatchOptions options) {
   mapmatch::MatchParameters parameters;
   match::apply_settings(options.set, parameters);
   mapmatch::Matcher matcher(network, rules, parameters);
+  mapmatch::MatchHistory history(network);
+  const double lag = options.whole ? longest_lag : options.lag;
   std::vector<double> microseconds;
   for (const mapmatch::VehicleFix& fix : track.fixes) {
     const auto start = std::chrono::steady_clock::now();
     const mapmatch::MatchResult& result = matcher.add(fix);
     microseconds.push_back(1e6 * to_seconds(std::chrono::steady_clock::now() - start));
     track.results.push_back(result);
+    if (lag > 0.0) history.add(result, matcher);
   }
+  if (lag > 0.0) track.results = history.judged_after(from_seconds(lag));
   print_summary(track, network, microseconds);
   if (const auto why = match::why_unusable(track, network)) throw std::runtime_error(*why);
   if (!options.csv.empty()) match::write_match_csv(options.csv, track, network);
   if (!options.geojson.empty()) match::write_match_geojson(options.geojson, track, network);
   if (!options.gpx.empty()) match::write_match_gpx(options.gpx, track, network);
+  if (!options.route.empty()) match::write_route(options.route, track, network);
   if (!options.html.empty()) match::write_match_html(options.html, track, network, rules);
   if (!options.labels.empty()) print_score(track, network, options.labels);
   return 0;
@@ -102,8 +114,10 @@ int match_track(MatchOptions options) {
 
 void add_match(CLI::App& app, Command& command) {
   auto options = std::make_shared<MatchOptions>();
-  CLI::App* sub = app.add_subcommand(
-      "match", "Find the roads that a recorded track was driven on, fix by fix as if live");
+  CLI::App* sub = app.add_subcommand("match",
+                                     "Find the roads that a recorded track was driven on, fix by "
+                                     "fix as if live, or by later fixes, "
+                                     "too (--lag, --whole)");
   sub->add_option("MAP", options->map,
                   "OpenStreetMap file, or a network file of `maploop map build`")
       ->required();
@@ -119,6 +133,16 @@ void add_match(CLI::App& app, Command& command) {
       ->check(writable_file());
   sub->add_option("--gpx", options->gpx, "Write the matched positions as GPX")
       ->check(writable_file());
+  sub->add_option(
+         "--route", options->route,
+         "Write every link that was driven, also those between two fixes, to this file, in "
+         "the form of OSRM's match service (JSON)")
+      ->check(writable_file());
+  sub->add_option("--lag", options->lag,
+                  "Judge each fix by the fixes of so many seconds after it, too")
+      ->check(number_in(0.0, longest_lag))
+      ->capture_default_str();
+  sub->add_flag("--whole", options->whole, "The same with the longest lag, 10 s");
   sub->add_option("--html", options->html, "Write a page with map, streets, reasons and doubts")
       ->check(writable_file());
   sub->add_option("--sigma", options->track_options.sigma,
@@ -142,7 +166,8 @@ void add_match(CLI::App& app, Command& command) {
   sub->footer(
       "Examples:\n"
       "    maploop match town.osm.pbf track.gpx --html match.html  # with reasons\n"
-      "    maploop match town.net run.lcmlog --csv matched.csv     # of a recorded run");
+      "    maploop match town.net run.lcmlog --csv matched.csv     # of a recorded run\n"
+      "    maploop match town.net track.gpx --whole --route route.json");
   sub->callback([options, &command] { command = [options] { return match_track(*options); }; });
 }
 

@@ -23,14 +23,13 @@ double distance_to_track(const Eigen::Vector2d& p, const std::vector<Eigen::Vect
   return least;
 }
 
-bool same_ground(const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b) {
-  if (a.empty() || b.empty()) return false;
-  const auto& fewer = a.size() < b.size() ? a : b;
-  const auto& more = a.size() < b.size() ? b : a;
-  const auto count = std::count_if(fewer.begin(), fewer.end(), [&](const Eigen::Vector2d& p) {
-    return distance_to_track(p, more) < near;
+bool same_ground(const std::vector<Eigen::Vector2d>& shorter,
+                 const std::vector<Eigen::Vector2d>& longer) {
+  if (shorter.empty() || longer.empty()) return false;
+  const auto count = std::count_if(shorter.begin(), shorter.end(), [&](const Eigen::Vector2d& p) {
+    return distance_to_track(p, longer) < near;
   });
-  return static_cast<double>(count) >= near_share * static_cast<double>(fewer.size());
+  return static_cast<double>(count) >= near_share * static_cast<double>(shorter.size());
 }
 
 }  // namespace
@@ -45,7 +44,8 @@ bool DoubtPool::same(const MapDoubt& a, const MapDoubt& b) const {
   };
   switch (a.kind) {
     case DoubtKind::missing_road:
-      return same_ground(places(a), places(b));
+      return a.length < b.length ? same_ground(places(a), places(b))
+                                 : same_ground(places(b), places(a));
     case DoubtKind::wrong_direction:
       return a.from.link == b.from.link;
     case DoubtKind::forbidden_turn:
@@ -57,28 +57,39 @@ bool DoubtPool::same(const MapDoubt& a, const MapDoubt& b) const {
 }
 
 void DoubtPool::add(const MapDoubt& doubt, const std::string& drive) {
-  auto sums = std::find_if(all_.begin(), all_.end(),
-                           [&](const Sums& s) { return same(s.pooled.doubt, doubt); });
-  if (sums == all_.end()) sums = all_.insert(all_.end(), {{doubt, 0, {}}});
-  PooledDoubt& pooled = sums->pooled;
-  if (doubt.probability > pooled.doubt.probability) pooled.doubt = doubt;
+  const bool is_shift = doubt.kind == DoubtKind::shifted_road;
+  if (!is_shift && !(doubt.probability > 0.5)) return;
+  auto group = std::find_if(all_.begin(), all_.end(),
+                            [&](const Group& g) { return same(g.pooled.doubt, doubt); });
+  if (group == all_.end()) group = all_.insert(group, Group{{doubt, 0, {}}, {}});
+  PooledDoubt& pooled = group->pooled;
+  const bool shows_more = doubt.kind == DoubtKind::missing_road
+                              ? doubt.length > pooled.doubt.length
+                              : doubt.probability > pooled.doubt.probability;
+  if (shows_more) pooled.doubt = doubt;
   ++pooled.times;
   pooled.drives.insert(drive);
-  sums->all_wrong *= 1.0 - doubt.probability;
-  if (doubt.kind != DoubtKind::shifted_road) return;
-  const double weight = 1.0 / (doubt.offset_sigma * doubt.offset_sigma);
-  sums->weight += weight;
-  sums->offset += weight * (doubt.from.link.forward ? doubt.offset : -doubt.offset);
+  MapDoubt& of_drive = group->of_drive.try_emplace(drive, doubt).first->second;
+  if (is_shift ? doubt.length > of_drive.length : doubt.probability > of_drive.probability)
+    of_drive = doubt;
 }
 
-PooledDoubt DoubtPool::total(const Sums& sums) const {
-  PooledDoubt pooled = sums.pooled;
+PooledDoubt DoubtPool::total(const Group& group) const {
+  PooledDoubt pooled = group.pooled;
   MapDoubt& doubt = pooled.doubt;
-  doubt.probability = 1.0 - sums.all_wrong;
+  double all_wrong = 1.0;
+  double weights = 0.0, offset = 0.0;  // 1/m^2; 1/m, to the right of the link's own direction
+  for (const auto& [drive, one] : group.of_drive) {
+    all_wrong *= 1.0 - one.probability;
+    const double weight = 1.0 / (one.offset_sigma * one.offset_sigma);
+    weights += weight;
+    offset += weight * (one.from.link.forward ? one.offset : -one.offset);
+  }
+  doubt.probability = 1.0 - all_wrong;
   if (doubt.kind != DoubtKind::shifted_road) return pooled;
-  const double offset = sums.offset / sums.weight;
+  offset /= weights;
   doubt.offset = doubt.from.link.forward ? offset : -offset;
-  doubt.offset_sigma = 1.0 / std::sqrt(sums.weight);
+  doubt.offset_sigma = 1.0 / std::sqrt(weights);
   const auto& road = network_.road_at(network_.link(doubt.from.link.link).first_vertex);
   doubt.probability =
       mapmatch::probability_of_shift(offset, doubt.offset_sigma, mapmatch::half_width(road));
@@ -87,8 +98,8 @@ PooledDoubt DoubtPool::total(const Sums& sums) const {
 
 std::vector<PooledDoubt> DoubtPool::likelier_than(double probability) const {
   std::vector<PooledDoubt> found;
-  for (const Sums& sums : all_) {
-    PooledDoubt pooled = total(sums);
+  for (const Group& group : all_) {
+    PooledDoubt pooled = total(group);
     if (pooled.doubt.probability > probability) found.push_back(std::move(pooled));
   }
   std::stable_sort(found.begin(), found.end(), [](const PooledDoubt& a, const PooledDoubt& b) {

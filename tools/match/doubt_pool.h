@@ -1,6 +1,7 @@
 // A doubt pool joins what several drives contradict of one map.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,36 +13,40 @@ namespace maploop::match {
 
 // Holds a contradiction that was found once or more often.
 struct PooledDoubt {
-  // The likeliest of them; the probability, offset and its sigma are those of all together.
+  // The likeliest of them, or the longest missing road; the probability, offset and its sigma are
+  // those of all together.
   MapDoubt doubt;
-  std::size_t times = 0;         // so often found ...
-  std::set<std::string> drives;  // ... in these drives
+  std::size_t times = 0;         // how often it was found
+  std::set<std::string> drives;  // which drives found it
 };
 
 // What two drives contradict is the same if it concerns the same link, turn, or, of a road that is
-// missing, the same ground within 20 m. Their errors are taken to be independent.
+// missing, the same ground within 20 m. The errors of two drives are taken to be independent, those
+// of one drive to be the same.
 class DoubtPool {
  public:
   // The network must outlive this object.
   explicit DoubtPool(const mapmatch::RoadNetwork& network) : network_(network) {}
 
+  // Leaves out what is unlikelier than not: many drives of a right map would otherwise refute it.
+  // Only offsets count in any case, as they may be of either side.
   void add(const MapDoubt& doubt, const std::string& drive);
   // Returns those that are likelier than this, the likeliest first.
   std::vector<PooledDoubt> likelier_than(double probability) const;
 
  private:
-  // Sums over the doubts that are joined in one.
-  struct Sums {
+  // The doubts that are joined in one.
+  struct Group {
     PooledDoubt pooled;
-    double all_wrong = 1.0;             // P that none of them is right
-    double weight = 0.0, offset = 0.0;  // 1/m^2, 1/m: of a shifted road, to the right of the link
+    // Of each drive the likeliest; of a shifted road the longest.
+    std::map<std::string, MapDoubt> of_drive;
   };
 
   bool same(const MapDoubt& a, const MapDoubt& b) const;
-  PooledDoubt total(const Sums& sums) const;
+  PooledDoubt total(const Group& group) const;
 
   const mapmatch::RoadNetwork& network_;
-  std::vector<Sums> all_;
+  std::vector<Group> all_;
 };
 
 }  // namespace maploop::match

@@ -44,6 +44,18 @@ json feature(const PooledDoubt& pooled, const mapmatch::RoadNetwork& network) {
             {"offset_sigma_m", number(doubt.offset_sigma)}}}};
 }
 
+std::int64_t read_id(const json& value) {
+  if (!value.is_number_integer()) throw std::runtime_error("an id is not a whole number");
+  return value.get<std::int64_t>();
+}
+
+Geodetic read_point(const json& point) {
+  const double longitude = point.at(0).get<double>(), latitude = point.at(1).get<double>();
+  if (!(std::abs(latitude) <= 90.0 && std::abs(longitude) <= 180.0))
+    throw std::runtime_error("a point is not a longitude and a latitude in degrees");
+  return {radians(latitude), radians(longitude), 0.0};
+}
+
 MapDoubt read_feature(const json& feature) {
   const json& p = feature.at("properties");
   MapDoubt doubt;
@@ -51,17 +63,27 @@ MapDoubt read_feature(const json& feature) {
   if (!kind) throw std::runtime_error("there is no kind '" + p.at("kind").get<std::string>() + "'");
   doubt.kind = *kind;
   doubt.probability = p.at("probability").get<double>();
-  doubt.from.way_id = p.at("way").get<std::int64_t>();
-  doubt.to.way_id = p.at("to_way").get<std::int64_t>();
+  doubt.from.way_id = read_id(p.at("way"));
+  doubt.to.way_id = read_id(p.at("to_way"));
+  doubt.to.node_a = read_id(p.at("to_node_a"));
   for (const json& point : feature.at("geometry").at("coordinates")) {
     if (doubt.track_count == MapDoubt::max_points) {
       throw std::runtime_error("a line has more than " + std::to_string(MapDoubt::max_points) +
                                " points");
     }
-    doubt.track[doubt.track_count++] = {radians(point.at(1).get<double>()),
-                                        radians(point.at(0).get<double>()), 0.0};
+    doubt.track[doubt.track_count++] = read_point(point);
   }
   return doubt;
+}
+
+// Returns the ways of a link, each once, in the order in which they are stored.
+std::vector<std::int64_t> ways_of(DirectedLink link, const mapmatch::RoadNetwork& network) {
+  std::vector<std::int64_t> ways;
+  for (const mapmatch::Vertex& v : network.shape(link.link)) {
+    const std::int64_t way = network.data().roads[v.road].way_id;
+    if (ways.empty() || ways.back() != way) ways.push_back(way);
+  }
+  return ways;
 }
 
 }  // namespace
@@ -69,20 +91,33 @@ MapDoubt read_feature(const json& feature) {
 void write_doubts(const std::filesystem::path& file, const std::vector<PooledDoubt>& doubts,
                   const mapmatch::RoadNetwork& network) {
   json features = json::array();
-  for (const PooledDoubt& pooled : doubts) features.push_back(feature(pooled, network));
+  for (const PooledDoubt& pooled : doubts) {
+    features.push_back(feature(pooled, network));
+    if (pooled.doubt.kind == DoubtKind::wrong_direction)
+      features.back()["properties"]["ways"] = ways_of(pooled.doubt.from.link, network);
+  }
   tools::write_json_file(file, {{"type", "FeatureCollection"}, {"features", features}});
 }
 
 std::vector<MapDoubt> read_doubts(const std::filesystem::path& file, double min_probability) {
+  const std::string text = evaluation::read_text(file);
   try {
+    const json parsed = json::parse(text);
     std::vector<MapDoubt> doubts;
-    const json parsed = json::parse(evaluation::read_text(file));
     for (const json& f : parsed.at("features")) {
       MapDoubt doubt = read_feature(f);
-      if (doubt.probability >= min_probability) doubts.push_back(doubt);
+      if (!(doubt.probability >= min_probability)) continue;
+      if (doubt.kind != DoubtKind::wrong_direction) {
+        doubts.push_back(doubt);
+        continue;
+      }
+      for (const json& way : f.at("properties").at("ways")) {
+        doubt.from.way_id = read_id(way);
+        doubts.push_back(doubt);
+      }
     }
     return doubts;
-  } catch (const json::exception& e) {
+  } catch (const std::exception& e) {
     throw std::runtime_error(file.string() + " is not a file of 'maploop map doubts': " + e.what());
   }
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -16,8 +17,17 @@ using mapmatch::MapExtract;
 using mapmatch::MapNode;
 using mapmatch::MapWay;
 
-constexpr double reach = 100.0;    // m: the matcher takes so long to leave the road that ends
-constexpr double same_node = 5.0;  // m
+constexpr double reach = 100.0;      // m: the matcher takes so long to leave the road that ends
+constexpr double on_the_road = 5.0;  // m
+constexpr double most = 0.7;         // of the points of a track
+constexpr double same_node = 5.0;    // m
+
+// Returns the point of a segment that is nearest to the origin.
+Eigen::Vector2d foot(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double length = along.squaredNorm();
+  return a + (length > 0.0 ? std::clamp(-a.dot(along) / length, 0.0, 1.0) : 0.0) * along;
+}
 
 class Corrector {
  public:
@@ -26,17 +36,18 @@ class Corrector {
     for (const MapWay& way : map.ways) next_way_ = std::max(next_way_, way.road.way_id + 1);
   }
 
+  // A road that the map has by now, or that would be an island, is left.
   bool add_road(const MapDoubt& doubt) {
-    if (doubt.track_count == 0) return false;
+    if (doubt.track_count == 0 || is_there(doubt)) return false;
+    const auto before = join(doubt.from.way_id, doubt.track[0]);
+    const auto after = join(doubt.to.way_id, doubt.track[doubt.track_count - 1]);
+    if (!before && !after) return false;
     MapWay road;
     road.road.way_id = next_way_++;
-    const auto before = join(doubt.from.way_id, doubt.track[0]);
     if (before) road.nodes.push_back(*before);
     for (std::size_t i = 0; i < doubt.track_count; ++i)
       road.nodes.push_back(add_node(doubt.track[i]));
-    const auto after = join(doubt.to.way_id, doubt.track[doubt.track_count - 1]);
     if (after) road.nodes.push_back(*after);
-    if (road.nodes.size() < 2) return false;
     map_.ways.push_back(road);
     return true;
   }
@@ -54,7 +65,8 @@ class Corrector {
   bool allow_turn(const MapDoubt& doubt) {
     return std::erase_if(map_.restrictions, [&](const mapmatch::MapRestriction& r) {
              const bool into = r.to_way == doubt.to.way_id;
-             return r.from_way == doubt.from.way_id && into != r.only;
+             return r.via_node == doubt.to.node_a && r.from_way == doubt.from.way_id &&
+                    into != r.only;
            }) > 0;
   }
 
@@ -64,11 +76,42 @@ class Corrector {
     return next_node_++;
   }
 
-  std::optional<Eigen::Vector2d> position(std::int64_t id, const LocalFrame& frame) const {
+  const MapNode* find(std::int64_t id) const {
     const auto node = std::lower_bound(map_.nodes.begin(), map_.nodes.end(), id,
                                        [](const MapNode& n, std::int64_t i) { return n.id < i; });
-    if (node == map_.nodes.end() || node->id != id) return {};
-    return frame.to_enu({radians(node->latitude), radians(node->longitude), 0.0}).head<2>();
+    return node == map_.nodes.end() || node->id != id ? nullptr : &*node;
+  }
+
+  static Eigen::Vector2d place_of(const MapNode& node, const LocalFrame& frame) {
+    return frame.to_enu({radians(node.latitude), radians(node.longitude), 0.0}).head<2>();
+  }
+
+  // Returns whether the map has roads along most of the track.
+  bool is_there(const MapDoubt& doubt) const {
+    const auto count = std::count_if(
+        doubt.track.begin(), doubt.track.begin() + static_cast<std::ptrdiff_t>(doubt.track_count),
+        [&](const Geodetic& place) { return is_on_road(place); });
+    return static_cast<double>(count) >= most * static_cast<double>(doubt.track_count);
+  }
+
+  bool is_on_road(const Geodetic& place) const {
+    const LocalFrame frame(place);
+    const double latitude = degrees(place.latitude), longitude = degrees(place.longitude);
+    const auto outside = [](double value, double a, double b) {
+      constexpr double margin = 1e-3;  // degrees, more than on_the_road
+      return value < std::min(a, b) - margin || value > std::max(a, b) + margin;
+    };
+    for (const MapWay& way : map_.ways) {
+      for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
+        const MapNode* a = find(way.nodes[i]);
+        const MapNode* b = find(way.nodes[i + 1]);
+        if (!a || !b || outside(latitude, a->latitude, b->latitude) ||
+            outside(longitude, a->longitude, b->longitude))
+          continue;
+        if (foot(place_of(*a, frame), place_of(*b, frame)).norm() < on_the_road) return true;
+      }
+    }
+    return false;
   }
 
   // Returns a node of the way near the place, which is added to the way where it has none; nothing
@@ -78,26 +121,26 @@ class Corrector {
     double least = reach;
     MapWay* way = nullptr;
     std::size_t segment = 0;
-    Eigen::Vector2d foot = Eigen::Vector2d::Zero();
+    Eigen::Vector2d nearest = Eigen::Vector2d::Zero();
     for (MapWay& w : map_.ways) {
       for (std::size_t i = 0; w.road.way_id == way_id && i + 1 < w.nodes.size(); ++i) {
-        const auto a = position(w.nodes[i], frame), b = position(w.nodes[i + 1], frame);
+        const MapNode* a = find(w.nodes[i]);
+        const MapNode* b = find(w.nodes[i + 1]);
         if (!a || !b) continue;
-        const Eigen::Vector2d along = *b - *a;
-        const double length = along.squaredNorm();
-        const double share = length > 0.0 ? std::clamp(-a->dot(along) / length, 0.0, 1.0) : 0.0;
-        const Eigen::Vector2d p = *a + share * along;
+        const Eigen::Vector2d p = foot(place_of(*a, frame), place_of(*b, frame));
         if (p.norm() >= least) continue;
         least = p.norm();
         way = &w;
         segment = i;
-        foot = p;
+        nearest = p;
       }
     }
     if (way == nullptr) return {};
-    for (const std::size_t i : {segment, segment + 1})
-      if ((*position(way->nodes[i], frame) - foot).norm() < same_node) return way->nodes[i];
-    const std::int64_t node = add_node(frame.to_geodetic({foot.x(), foot.y(), 0.0}));
+    for (const std::size_t i : {segment, segment + 1}) {
+      if ((place_of(*find(way->nodes[i]), frame) - nearest).norm() < same_node)
+        return way->nodes[i];
+    }
+    const std::int64_t node = add_node(frame.to_geodetic({nearest.x(), nearest.y(), 0.0}));
     way->nodes.insert(way->nodes.begin() + static_cast<std::ptrdiff_t>(segment) + 1, node);
     return node;
   }

@@ -204,17 +204,20 @@ DoubtScore score_doubts(const std::vector<MapDoubt>& doubts, const NoisyTrack& n
   DoubtScore score;
   for (const MapDoubt& doubt : doubts) {
     if (!(doubt.probability > 0.5)) continue;
-    bool on_way = false;
+    std::size_t during = 0, on_way = 0;
     for (std::size_t i = 0; i < noisy.track.size(); ++i) {
       const Time t = noisy.track[i].stamp;
       const auto label = labels.find(noisy.rows[i]);
-      if (doubt.begin <= t && t <= doubt.stamp && label != labels.end())
-        on_way = on_way || label->second.way_id == way;
+      if (t < doubt.begin || t > doubt.stamp || label == labels.end()) continue;
+      ++during;
+      on_way += label->second.way_id == way ? 1 : 0;
     }
-    if (!on_way) {
-      ++score.others;
-    } else if (doubt.kind == expected) {
+    const bool names_it =
+        is_missing ? 2 * on_way >= during && on_way > 0 : doubt.from.way_id == way && on_way > 0;
+    if (names_it && doubt.kind == expected) {
       score.found = true;
+    } else {
+      ++score.others;
     }
   }
   return score;

@@ -67,7 +67,7 @@ struct DoubtScore {
 };
 
 // Scores the doubts that are likelier than not. `way` is what is wrong (0: nothing): it is missing,
-// or else its direction is wrong.
+// and then half of the doubt's fixes must be on it, or else its direction is wrong.
 DoubtScore score_doubts(const std::vector<MapDoubt>& doubts, const NoisyTrack& track,
                         const Labels& labels, std::int64_t way, bool is_missing);
 

@@ -126,19 +126,28 @@ MatchedFix matched_fix(const mapmatch::MatchResult& r, const mapmatch::RoadNetwo
 }
 
 std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& track,
-                                    std::vector<MapDoubt>* doubts) {
-  mapmatch::DoubtCollector collector(matcher.network());
-  const auto take = [doubts](std::span<const MapDoubt> some) {
-    if (doubts != nullptr) doubts->insert(doubts->end(), some.begin(), some.end());
+                                    const MatchOutputs& outputs) {
+  mapmatch::DoubtCollector collector(matcher.network(), matcher.parameters());
+  const auto take = [&](std::span<const MapDoubt> some) {
+    if (outputs.doubts) outputs.doubts->insert(outputs.doubts->end(), some.begin(), some.end());
   };
   std::vector<MatchedFix> matched;
   matched.reserve(track.size());
   for (const mapmatch::VehicleFix& fix : track) {
     const mapmatch::MatchResult& result = matcher.add(fix);
+    if (outputs.history) outputs.history->add(result, matcher);
     take(collector.add(result, fix));
     matched.push_back(matched_fix(result, matcher.network()));
   }
   take(collector.finish());
+  return matched;
+}
+
+std::vector<MatchedFix> match_later(const mapmatch::MatchHistory& history, Duration lag,
+                                    const mapmatch::RoadNetwork& network) {
+  std::vector<MatchedFix> matched;
+  for (const mapmatch::MatchResult& result : history.judged_after(lag))
+    matched.push_back(matched_fix(result, network));
   return matched;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "mapmatch/match_history.h"
 #include "mapmatch/matcher.h"
 #include "msgs/map_doubt.h"
 #include "msgs/map_match.h"
@@ -53,10 +54,19 @@ struct MatchedFix {
 };
 MatchedFix matched_fix(const mapmatch::MatchResult& result, const mapmatch::RoadNetwork& network);
 
-// Returns the match of each fix of a track; appends what the drive contradicts of the map, likely
-// or not, to `doubts`.
+// What else match_track() is to find.
+struct MatchOutputs {
+  std::vector<MapDoubt>* doubts = nullptr;  // what the drive contradicts of the map, likely or not
+  mapmatch::MatchHistory* history = nullptr;
+};
+
+// Returns the match of each fix of a track, and appends to the outputs.
 std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& track,
-                                    std::vector<MapDoubt>* doubts = nullptr);
+                                    const MatchOutputs& outputs = {});
+
+// Returns the matches of the fixes, each judged by the fixes until `lag` after it.
+std::vector<MatchedFix> match_later(const mapmatch::MatchHistory& history, Duration lag,
+                                    const mapmatch::RoadNetwork& network);
 
 // The baseline: returns the nearest segment within 100 m whose azimuth differs by at most 50
 // degrees from the vehicle's.

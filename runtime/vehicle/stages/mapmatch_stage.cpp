@@ -19,7 +19,7 @@ MapMatchStage::MapMatchStage(Rings& rings, std::shared_ptr<const RoadMap> map,
     : GraphStage(stages::mapmatch, rings),
       map_(std::move(map)),
       matcher_(map_->network, map_->rules, parameters),
-      doubts_(map_->network),
+      doubts_(map_->network, parameters),
       matches_(outputs(rings::mapmatch_publisher)),
       doubts_out_(outputs(rings::doubt_publisher)),
       feedbacks_(outputs(rings::mapmatch_fusion, rings::feedback_publisher, rings::mapmatch_ppp)) {
@@ -54,7 +54,10 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
     ready = runtime::monotonic_now();
   }
   save_until(k - Duration(1), stop);
-  if (intake_.finished() && intake_.taken() == taken_before) return false;
+  if (intake_.finished() && intake_.taken() == taken_before) {
+    publish(doubts_.finish(), k + spec().budget, stop);
+    return false;
+  }
 
   delay(k);
   intake_.take_until(k);
@@ -63,7 +66,7 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   match.sequence = ticks_++;
   counts_.add(match.refusal);
   matches_.push(match, stop);
-  publish_doubts(match, stop);
+  publish(doubts_.add(match, mapmatch::fix_of(newest_)), match.available, stop);
   if (feedback_) {
     MapFeedback feedback = feedback_->decide(match, mapmatch::fix_of(newest_));
     feedback.available = match.available;
@@ -75,11 +78,12 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   return true;
 }
 
-// Those that are likelier than not.
-void MapMatchStage::publish_doubts(const MapMatch& match, const std::stop_token& stop) {
-  for (MapDoubt doubt : doubts_.add(match, mapmatch::fix_of(newest_))) {
+// Publishes the doubts that are likelier than not.
+void MapMatchStage::publish(std::span<const MapDoubt> found, Time available,
+                            const std::stop_token& stop) {
+  for (MapDoubt doubt : found) {
     if (!(doubt.probability > 0.5)) continue;
-    doubt.available = match.available;
+    doubt.available = available;
     doubt.sequence = doubt_count_++;
     doubts_out_.push(doubt, stop);
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -45,7 +46,7 @@ class MapMatchStage final : public GraphStage {
             const std::stop_token& stop);
   bool wait_until(Time t, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
-  void publish_doubts(const MapMatch& match, const std::stop_token& stop);
+  void publish(std::span<const MapDoubt> found, Time available, const std::stop_token& stop);
   void load(ArchiveReader& ar) override { archive(ar); }
   template <class Archive>
   void archive(Archive& ar);

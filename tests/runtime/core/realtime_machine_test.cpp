@@ -85,9 +85,10 @@ TEST(RealtimeMachine, HugePagesForEveryProgramAreLimiting) {
       "huge pages", [](M& m) { m.huge_pages = "[always] madvise never"; }, limiting, "always");
   expect_item(
       "huge pages", [](M& m) { m.huge_pages = "always madvise [never]"; }, granted, "never");
-  for (const char* no_choice : {"", "]always[", "[always"})
+  for (const char* no_choice : {"", "]always[", "[always"}) {
     expect_item(
         "huge pages", [=](M& m) { m.huge_pages = no_choice; }, unknown, "unknown");
+  }
 }
 
 TEST(RealtimeMachine, InterruptsOnIsolatedCpusAreNamed) {

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "mapmatch/matcher.h"
 #include "mapmatch/network_file.h"
 #include "msgs/frames.h"
@@ -48,7 +50,7 @@ const mapmatch::RuleBases& the_rules() {
 std::vector<MapDoubt> found(const mapmatch::RoadNetwork& network, const Track& track) {
   mapmatch::Matcher matcher(network, the_rules(), {});
   std::vector<MapDoubt> doubts;
-  match_track(matcher, track, &doubts);
+  match_track(matcher, track, {.doubts = &doubts});
   return doubts;
 }
 
@@ -66,7 +68,7 @@ TEST(DoubtPool, JoinsWhatTwoDrivesSayOfTheSameGround) {
   const auto network = ladder(false).network();
   const auto doubts = pooled(network, {up_the_rung(), up_the_rung()});
   ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_EQ(doubts[0].times, 2U);
+  EXPECT_EQ(doubts[0].times, 2U) << "twice, by the two drives";
   EXPECT_THAT(doubts[0].drives, SizeIs(2));
   const auto once = pooled(network, {up_the_rung()});
   ASSERT_THAT(once, SizeIs(1));
@@ -78,6 +80,45 @@ TEST(DoubtPool, KeepsTwoRoadsApart) {
   const auto elsewhere =
       maploop::testing::drive({{-490, 0}, {200, 0}, {200, 600}, {490, 600}}, 10.0, 10.0);
   EXPECT_THAT(pooled(network, {up_the_rung(), elsewhere}), SizeIs(2));
+}
+
+// A doubt of a missing road, with a point each 10 m to the north.
+MapDoubt missing(double east, double south, double north, double probability) {
+  MapDoubt doubt;
+  doubt.probability = probability;
+  doubt.length = north - south;
+  const double step = std::max(10.0, doubt.length / (MapDoubt::max_points - 1));
+  for (double at = south; at <= north && doubt.track_count < MapDoubt::max_points; at += step)
+    doubt.track[doubt.track_count++] = SmallMap::place(east, at);
+  return doubt;
+}
+
+TEST(DoubtPool, KeepsTheLongestTrackOfARoadInAnyOrder) {
+  const auto network = ladder(false).network();
+  for (const bool long_first : {true, false}) {
+    DoubtPool pool(network);
+    if (long_first) pool.add(missing(0, 0, 3000, 0.97), "a");
+    pool.add(missing(0, 0, 1000, 0.98), "b");
+    if (!long_first) pool.add(missing(0, 0, 3000, 0.97), "a");
+    const auto found = pool.likelier_than(0.5);
+    ASSERT_THAT(found, SizeIs(1));
+    EXPECT_EQ(found[0].doubt.length, 3000.0);
+    EXPECT_NEAR(found[0].doubt.probability, 1.0 - 0.02 * 0.03, 1e-12);
+  }
+}
+
+TEST(DoubtPool, WhatOneDriveSaysTwiceIsNoMoreLikely) {
+  const auto network = ladder(false).network();
+  DoubtPool twice(network);
+  for (int i = 0; i < 2; ++i) twice.add(missing(0, 0, 500, 0.6), "a");
+  EXPECT_NEAR(twice.likelier_than(0.5).at(0).doubt.probability, 0.6, 1e-12);
+}
+
+TEST(DoubtPool, ManyUnlikelyDoubtsProveNothing) {
+  const auto network = ladder(false).network();
+  DoubtPool pool(network);
+  for (int i = 0; i < 20; ++i) pool.add(missing(0, 0, 500, 0.2), "drive " + std::to_string(i));
+  EXPECT_THAT(pool.likelier_than(0.5), IsEmpty());
 }
 
 // Positions of 3 m do not show a shift of 8 m, five drives of them do.
@@ -124,9 +165,42 @@ TEST_F(DoubtsFile, ErrorsNameTheFileAndWhatIsWrong) {
   EXPECT_THAT(error_of("{}"), HasSubstr("doubts.geojson"));
   EXPECT_THAT(error_of("not JSON"), HasSubstr("not a file of 'maploop map doubts'"));
   EXPECT_THAT(error_of(R"({"features": [{"properties": {"kind": "hole"}}]})"),
-              HasSubstr("there is no kind 'hole'"));
+              AllOf(HasSubstr("there is no kind 'hole'"), HasSubstr("doubts.geojson")));
   EXPECT_THAT(error_of(R"({"features": [{"properties": {"kind": "missing road"}}]})"),
               HasSubstr("probability"));
+}
+
+TEST_F(DoubtsFile, PlacesOffTheEarthAndIdsThatAreNoneAreRefused) {
+  const auto network = ladder(false).network();
+  write_doubts(file, pooled(network, {up_the_rung()}), network);
+  const std::string good = evaluation::read_text(file);
+  const auto with = [&](const std::string& key, const std::string& value) {
+    auto parsed = nlohmann::json::parse(good);
+    auto& feature = parsed["features"][0];
+    if (key == "point") {
+      feature["geometry"]["coordinates"][0] = nlohmann::json::parse(value);
+    } else {
+      feature["properties"][key] = nlohmann::json::parse(value);
+    }
+    return error_of(parsed.dump());
+  };
+  EXPECT_EQ(error_of(good), "");
+  EXPECT_THAT(with("point", "[8.4, 4900]"), HasSubstr("in degrees"));
+  EXPECT_THAT(with("point", "[8.4]"), HasSubstr("doubts.geojson"));
+  EXPECT_THAT(with("way", "1.5"), HasSubstr("not a whole number"));
+  EXPECT_THAT(with("to_node_a", "1e300"), HasSubstr("not a whole number"));
+}
+
+TEST_F(DoubtsFile, AWrongDirectionIsThatOfAllWaysOfItsLink) {
+  SmallMap map;
+  map.node(1, 0, 0).node(2, 0, 300).node(3, 0, 600).node(4, 500, 0);
+  map.way(10, {1, 2}, one_way()).way(11, {2, 3}, one_way()).way(20, {1, 4});
+  const auto network = map.network();
+  const Track down = maploop::testing::drive({{0, 590}, {0, 0}, {490, 0}}, 10.0, 10.0);
+  write_doubts(file, pooled(network, {down}), network);
+  mapmatch::MapExtract extract = map.extract();
+  EXPECT_EQ(correct(extract, read_doubts(file, 0.5)).directions, 2U);
+  for (const mapmatch::MapWay& way : extract.ways) EXPECT_TRUE(way.road.backward);
 }
 
 TEST(MapCorrections, ARoadThatWasMissingJoinsItsNeighboursAndIsDrivenFromThenOn) {
@@ -159,6 +233,31 @@ TEST(MapCorrections, ATurnThatWasDrivenIsAllowed) {
   mapmatch::MapExtract map = banned.extract();
   EXPECT_EQ(correct(map, {doubts[0].doubt}).turns, 1U);
   EXPECT_THAT(map.restrictions, IsEmpty());
+}
+
+TEST(MapCorrections, ATurnAtAnotherJunctionStaysForbidden) {
+  SmallMap banned = ladder(true);
+  banned.ban(10, 2, 20).ban(10, 1, 20);
+  const auto doubts = pooled(banned.network(), {up_the_rung()});
+  ASSERT_THAT(doubts, SizeIs(1));
+  mapmatch::MapExtract map = banned.extract();
+  correct(map, {doubts[0].doubt});
+  ASSERT_THAT(map.restrictions, SizeIs(1));
+  EXPECT_EQ(map.restrictions[0].via_node, 1);
+}
+
+TEST(MapCorrections, ARoadThatTheMapHasByNowOrThatJoinsNothingIsLeft) {
+  const auto likely = pooled(ladder(false).network(), {up_the_rung()});
+  ASSERT_THAT(likely, SizeIs(1));
+  const std::vector<MapDoubt> doubts{likely[0].doubt};
+  mapmatch::MapExtract newer = ladder(true).extract();
+  EXPECT_EQ(correct(newer, doubts).left, 1U);
+  EXPECT_EQ(newer.ways.size(), 3U);
+  mapmatch::MapExtract elsewhere = ladder(false).extract();
+  for (mapmatch::MapWay& way : elsewhere.ways) way.road.way_id += 1000;
+  const std::size_t nodes = elsewhere.nodes.size();
+  EXPECT_EQ(correct(elsewhere, doubts).left, 1U);
+  EXPECT_EQ(elsewhere.nodes.size(), nodes);
 }
 
 TEST(MapCorrections, WhatTheMapHasNoLongerIsLeftAndCounted) {

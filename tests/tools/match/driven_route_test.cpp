@@ -1,0 +1,120 @@
+// Tests the route of a matched track, and its file.
+#include "tools/match/driven_route.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/mapmatch/simulated_drive.h"
+#include "tests/mapmatch/small_map.h"
+#include "tests/support/real_data.h"
+#include "tools/evaluate/text_file.h"
+
+namespace maploop::match {
+namespace {
+
+using maploop::testing::drive;
+using maploop::testing::SmallMap;
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
+
+// Three streets in a row of 300 m, 40 m and 300 m, and one to the north from each junction.
+mapmatch::RoadNetwork row() {
+  SmallMap map;
+  map.node(1, 0, 0).node(2, 300, 0).node(3, 340, 0).node(4, 640, 0).node(5, 300, 200);
+  map.node(6, 340, 200);
+  map.way(10, {1, 2}).way(11, {2, 3}).way(12, {3, 4}).way(20, {2, 5}).way(21, {3, 6});
+  return map.network();
+}
+
+MatchedTrack matched(const mapmatch::RoadNetwork& network, const Track& fixes) {
+  static const auto rules = mapmatch::read_rule_bases(mapmatch::default_rules());
+  mapmatch::Matcher matcher(network, rules, {});
+  MatchedTrack track{fixes, {}};
+  for (const auto& fix : fixes) track.results.push_back(matcher.add(fix));
+  return track;
+}
+
+std::vector<std::int64_t> ways(const DrivenRoute::Piece& piece,
+                               const mapmatch::RoadNetwork& network) {
+  std::vector<std::int64_t> ways;
+  for (const RouteStep& step : piece)
+    ways.push_back(network.road_at(network.link(step.link.link).first_vertex).way_id);
+  return ways;
+}
+
+double length(const DrivenRoute::Piece& piece) {
+  double sum = 0.0;
+  for (const RouteStep& step : piece) sum += step.length();
+  return sum;
+}
+
+TEST(DrivenRoute, HasTheLinkBetweenTwoFixesThatNoFixIsOn) {
+  const auto network = row();
+  // A fix each 100 m.
+  const auto track = matched(network, drive({{50, 0}, {640, 0}}, 20.0, 0.2));
+  const DrivenRoute route = driven_route(track, network);
+  ASSERT_THAT(route.pieces, SizeIs(1));
+  EXPECT_THAT(ways(route.pieces[0], network), ElementsAre(10, 11, 12));
+  EXPECT_EQ(route.pieces[0][1].fixes, 0U);
+  EXPECT_NEAR(route.pieces[0][1].length(), 40.0, 0.1);
+  EXPECT_NEAR(to_seconds(route.pieces[0][1].left - route.pieces[0][1].entered), 2.0, 0.3);
+}
+
+TEST(DrivenRoute, IsAsLongAsTheDriveAndItsTimesIncrease) {
+  const auto network = row();
+  const auto track = matched(network, drive({{10, 0}, {630, 0}}, 10.0, 10.0));
+  const DrivenRoute route = driven_route(track, network);
+  ASSERT_THAT(route.pieces, SizeIs(1));
+  EXPECT_NEAR(length(route.pieces[0]), 620.0, 5.0);
+  Time before = route.pieces[0][0].entered;
+  for (const RouteStep& step : route.pieces[0]) {
+    EXPECT_GE(step.entered, before);
+    EXPECT_GE(step.left, step.entered);
+    EXPECT_GE(step.to, step.from);
+    before = step.left;
+  }
+  ASSERT_TRUE(route.places.back());
+  EXPECT_NEAR(route.places.back()->distance, 620.0, 5.0);
+}
+
+TEST(DrivenRoute, ABreakAndAFieldBeginANewPiece) {
+  const auto network = row();
+  auto fixes = drive({{10, 0}, {630, 0}}, 10.0, 10.0);
+  for (std::size_t i = 300; i < fixes.size(); ++i) fixes[i].stamp += std::chrono::seconds(100);
+  EXPECT_THAT(driven_route(matched(network, fixes), network).pieces, SizeIs(2));
+}
+
+TEST(DrivenRoute, OfNoFixOnARoadIsEmpty) {
+  const auto network = row();
+  const DrivenRoute route = driven_route(MatchedTrack{}, network);
+  EXPECT_TRUE(route.pieces.empty() && route.places.empty());
+}
+
+TEST(DrivenRoute, ItsFileHasTheFormOfOsrm) {
+  const auto network = row();
+  const maploop::testing::TemporaryFolder folder;
+  const auto file = folder.path() / "route.json";
+  const auto track = matched(network, drive({{10, 0}, {630, 0}}, 10.0, 1.0));
+  write_route(file, track, network);
+  const auto json = nlohmann::json::parse(evaluation::read_text(file));
+  EXPECT_EQ(json["code"], "Ok");
+  ASSERT_EQ(json["tracepoints"].size(), track.fixes.size());
+  ASSERT_EQ(json["matchings"].size(), 1U);
+  const auto& matching = json["matchings"][0];
+  EXPECT_EQ(matching["legs"].size(), track.fixes.size() - 1);
+  double legs = 0.0;
+  for (const auto& leg : matching["legs"]) legs += leg["distance"].get<double>();
+  EXPECT_NEAR(legs, matching["distance"].get<double>(), 0.5);
+  EXPECT_EQ(matching["geometry"]["type"], "LineString");
+  EXPECT_NEAR(matching["geometry"]["coordinates"][0][1].get<double>(), 49.0, 1e-4);
+  EXPECT_EQ(json["tracepoints"][3]["waypoint_index"], 3);
+  EXPECT_EQ(matching["ways"][1]["way_id"], 11);
+  EXPECT_EQ(matching["ways"][1]["from_node"], 2);
+  write_route(file, MatchedTrack{}, network);
+  EXPECT_EQ(nlohmann::json::parse(evaluation::read_text(file))["code"], "NoMatch");
+}
+
+}  // namespace
+}  // namespace maploop::match

@@ -1,0 +1,160 @@
+#include "tools/match/driven_route.h"
+
+#include <algorithm>
+#include <queue>
+#include <utility>
+
+#include "mapmatch/match_parameters.h"
+
+namespace maploop::match {
+namespace {
+
+using mapmatch::DirectedLink;
+using mapmatch::MatchResult;
+using mapmatch::RoadNetwork;
+
+constexpr std::size_t most_links = 8;    // between two fixes
+constexpr double forbidden = 1000.0;     // m that a forbidden turn or direction counts for
+constexpr double least_reach = 100.0;    // m between two fixes, for errors of both ...
+constexpr double reach_per_metre = 3.0;  // ... and times the straight line
+
+// A way that has left its first link.
+struct Way {
+  double cost = 0.0, length = 0.0;  // m of the links in between
+  std::vector<DirectedLink> links;  // the last is not yet driven
+  bool operator<(const Way& other) const { return cost > other.cost; }
+};
+
+// Returns the links between two links, or nothing if there is no way of at most this length.
+std::optional<std::vector<DirectedLink>> links_between(const RoadNetwork& network,
+                                                       DirectedLink from, DirectedLink to,
+                                                       double reach) {
+  std::priority_queue<Way> open;
+  const auto leave = [&](const Way& way, DirectedLink link) {
+    for (const DirectedLink exit : network.exits(network.end_junction(link))) {
+      Way next = way;
+      const bool legal = network.allowed(exit) && network.allowed_turn(link, exit);
+      next.cost += legal && exit != link.reversed() ? 0.0 : forbidden;
+      next.links.push_back(exit);
+      open.push(std::move(next));
+    }
+  };
+  leave({}, from);
+  while (!open.empty()) {
+    Way way = open.top();
+    open.pop();
+    const DirectedLink link = way.links.back();
+    if (link == to) {
+      way.links.pop_back();
+      return way.links;
+    }
+    const double length = network.link(link.link).length;
+    way.length += length;
+    way.cost += length;
+    if (way.length <= reach && way.links.size() < most_links) leave(way, link);
+  }
+  return {};
+}
+
+// Builds a route fix by fix.
+class RouteBuilder {
+ public:
+  explicit RouteBuilder(const RoadNetwork& network) : network_(network) {}
+
+  RoutePlace add(const MatchResult& now) {
+    if (!before_ || !go_on(now)) begin(now);
+    RouteStep& step = route.pieces.back().back();
+    step.to = std::max(step.to, now.along);
+    step.left = now.stamp;
+    step.probability += now.probability;
+    ++step.fixes;
+    before_ = &now;
+    return {route.pieces.size() - 1, driven_ + step.length()};
+  }
+
+  void leave_road() { before_ = nullptr; }
+
+  DrivenRoute finish() {
+    for (DrivenRoute::Piece& piece : route.pieces) {
+      double last = 0.0;
+      for (RouteStep& step : piece) {
+        step.probability =
+            step.fixes > 0 ? step.probability / static_cast<double>(step.fixes) : last;
+        last = step.probability;
+      }
+    }
+    return std::move(route);
+  }
+
+  DrivenRoute route;
+
+ private:
+  void begin(const MatchResult& now) {
+    route.pieces.push_back({{now.link, now.along, now.along, now.stamp, now.stamp}});
+    driven_ = 0.0;
+  }
+
+  bool go_on(const MatchResult& now) {
+    const mapmatch::MatchParameters parameters;
+    if (to_seconds(now.stamp - before_->stamp) > parameters.max_gap) return false;
+    if (now.link == before_->link) return true;
+    RouteStep& last = route.pieces.back().back();
+    if (now.link == last.link.reversed()) {  // a U-turn on the road
+      driven_ += last.length();
+      const double from = std::min(network_.link(now.link.link).length - last.to, now.along);
+      enter({now.link, from, from, last.left, now.stamp});
+      return true;
+    }
+    const double straight = (now.point.position - before_->point.position).norm();
+    const auto between =
+        links_between(network_, last.link, now.link, least_reach + reach_per_metre * straight);
+    if (!between) return false;
+    drive_on(*between, now);
+    return true;
+  }
+
+  // Drives the rest of the last link, the links in between, and the beginning of the new one.
+  void drive_on(const std::vector<DirectedLink>& between, const MatchResult& now) {
+    RouteStep& last = route.pieces.back().back();
+    double whole = network_.link(last.link.link).length - last.to + now.along;
+    for (const DirectedLink link : between) whole += network_.link(link.link).length;
+    const Time start = last.left;
+    double driven = network_.link(last.link.link).length - last.to;
+    const auto at = [&] {
+      return start + from_seconds(whole > 0.0 ? to_seconds(now.stamp - start) * driven / whole : 0);
+    };
+    last.to = network_.link(last.link.link).length;
+    last.left = at();
+    driven_ += last.length();
+    for (const DirectedLink link : between) {
+      const Time entered = at();
+      driven += network_.link(link.link).length;
+      enter({link, 0.0, network_.link(link.link).length, entered, at()});
+      driven_ += network_.link(link.link).length;
+    }
+    enter({now.link, 0.0, 0.0, at(), now.stamp});
+  }
+
+  void enter(const RouteStep& step) { route.pieces.back().push_back(step); }
+
+  const RoadNetwork& network_;
+  const MatchResult* before_ = nullptr;
+  double driven_ = 0.0;  // m of the piece until the last step
+};
+
+}  // namespace
+
+DrivenRoute driven_route(const MatchedTrack& track, const RoadNetwork& network) {
+  RouteBuilder builder(network);
+  builder.route.places.resize(track.fixes.size());
+  for (const std::size_t i : track.used()) {
+    if (track.results[i].on_road) {
+      builder.route.places[i] = builder.add(track.results[i]);
+    } else {
+      builder.leave_road();
+    }
+  }
+  return builder.finish();
+}
+
+}  // namespace maploop::match
