@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mapmatch/foot_point.h"
+
 namespace maploop::mapmatch {
 namespace {
 
@@ -14,8 +16,7 @@ NearLink nearest_on_segment(const RoadNetwork& network, const IndexedSegment& se
   const Vertex& b = network.vertex(segment.vertex + 1);
   const Eigen::Vector2d step = b.position() - a.position();
   const double squared = step.squaredNorm();
-  const double share =
-      squared > 0.0 ? std::clamp((place - a.position()).dot(step) / squared, 0.0, 1.0) : 0.0;
+  const double share = foot_share(place, a.position(), step);
   NearLink near;
   near.link = {segment.link, true};
   near.along = a.along + share * (b.along - a.along);

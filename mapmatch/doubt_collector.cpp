@@ -10,7 +10,6 @@ namespace maploop::mapmatch {
 namespace {
 
 constexpr double beyond_the_map = 100.0;  // m
-constexpr double leaving = 0.1;       // P(off road) at which the vehicle may have left the roads
 constexpr double min_away = 30.0;     // m, shorter ways off the roads are entrances and car parks
 constexpr double min_against = 20.0;  // m against a one-way direction
 constexpr double min_link = 5.0;      // m, on a link that counts as driven
@@ -18,8 +17,9 @@ constexpr double min_beside = 40.0;   // m over which an offset is measured ...
 constexpr double from_end = 15.0;     // m, ... so far from junctions, ...
 constexpr double parallel = 0.2;      // rad, ... and like the link
 constexpr double least_step = 10.0;   // m, between places if no speed is known
-// Of all roads so many are shifted, so far: the error of OpenStreetMap's positions is 6 m in the
-// mean (Haklay, "How good is volunteered geographical information?", 2010).
+// These describe the roads that are shifted: their share of all roads, and how far they are
+// shifted. The error of OpenStreetMap's positions is 6 m in the mean (Haklay, "How good is
+// volunteered geographical information?", 2010).
 constexpr double shifted_share = 0.02;
 constexpr double shift_sigma = 10.0;  // m
 
@@ -48,9 +48,9 @@ DoubtCollector::DoubtCollector(const RoadNetwork& network, const MatchParameters
 std::span<const MapDoubt> DoubtCollector::add(const LinkMatch& match, const VehicleFix& fix) {
   found_count_ = 0;
   if (match.refusal != FixRefusal::none) return {};
-  const double metres = advance(fix);
-  follow_away(match, fix, metres);
-  follow_link(match, fix, metres);
+  const Step step = advance(fix);
+  follow_away(match, fix, step);
+  follow_link(match, fix, step);
   return {found_.data(), found_count_};
 }
 
@@ -64,8 +64,8 @@ std::span<const MapDoubt> DoubtCollector::finish() {
   return {found_.data(), found_count_};
 }
 
-// Returns the metres driven since the last fix. Those backwards do not count.
-double DoubtCollector::advance(const VehicleFix& fix) {
+// Metres that were driven backwards do not count.
+DoubtCollector::Step DoubtCollector::advance(const VehicleFix& fix) {
   const Eigen::Vector2d place = network_->to_local(fix.position);
   const double interval = to_seconds(fix.stamp - stamp_);
   if (!started_ || fix.stamp - stamp_ > max_gap_) {
@@ -73,18 +73,18 @@ double DoubtCollector::advance(const VehicleFix& fix) {
     started_ = true;
     stamp_ = fix.stamp;
     place_ = place;
-    return 0.0;
+    return {place, 0.0};
   }
   stamp_ = fix.stamp;
   if (std::isfinite(fix.speed)) {
     place_ = place;
-    return std::max(fix.speed, 0.0) * interval;
+    return {place, std::max(fix.speed, 0.0) * interval};
   }
   // Positions move by their noise, too.
   const double moved = (place - place_).norm();
-  if (moved < least_step) return 0.0;
+  if (moved < least_step) return {place, 0.0};
   place_ = place;
-  return moved;
+  return {place, moved};
 }
 
 MapDoubt::Segment DoubtCollector::segment_at(DirectedLink link, double along) const {
@@ -107,13 +107,13 @@ MapDoubt& DoubtCollector::add_doubt(DoubtKind kind, const Visit& visit, double p
   return doubt;
 }
 
-void DoubtCollector::follow_away(const LinkMatch& match, const VehicleFix& fix, double metres) {
-  if (match.on_road && match.off_road < leaving) {
+void DoubtCollector::follow_away(const LinkMatch& match, const VehicleFix& fix, const Step& step) {
+  if (match.on_road && match.off_road < may_have_left) {
     last_ = segment_at(match.link, match.along);
     return end_away(last_);
   }
-  const Eigen::Vector2d place = network_->to_local(fix.position);
-  if (!area_.meets({place.x(), place.y(), place.x(), place.y()})) return end_away({});
+  const double x = step.place.x(), y = step.place.y();
+  if (!area_.meets({x, y, x, y})) return end_away({});
   if (!away_.there) {
     away_ = {};
     away_.there = true;
@@ -121,7 +121,7 @@ void DoubtCollector::follow_away(const LinkMatch& match, const VehicleFix& fix, 
     away_.stretch = DriveStretch(fix.stamp);
   }
   away_.sure = away_.sure || !match.on_road;
-  away_.stretch.add(fix.position, metres, match.off_road);
+  away_.stretch.add(fix.position, step.metres, match.off_road);
 }
 
 void DoubtCollector::end_away(const MapDoubt::Segment& to) {
@@ -130,7 +130,7 @@ void DoubtCollector::end_away(const MapDoubt::Segment& to) {
   away_ = {};
 }
 
-void DoubtCollector::follow_link(const LinkMatch& match, const VehicleFix& fix, double metres) {
+void DoubtCollector::follow_link(const LinkMatch& match, const VehicleFix& fix, const Step& step) {
   if (!match.on_road) {
     // How far the link was really driven is not known.
     link_ = {};
@@ -143,20 +143,21 @@ void DoubtCollector::follow_link(const LinkMatch& match, const VehicleFix& fix, 
     link_.segment = segment_at(match.link, match.along);
     link_.stretch = DriveStretch(fix.stamp);
   }
-  link_.stretch.add(fix.position, metres, match.probability);
-  measure_offset(match, fix, metres);
+  link_.stretch.add(fix.position, step.metres, match.probability);
+  measure_offset(match, fix, step);
 }
 
-void DoubtCollector::measure_offset(const LinkMatch& match, const VehicleFix& fix, double metres) {
+void DoubtCollector::measure_offset(const LinkMatch& match, const VehicleFix& fix,
+                                    const Step& step) {
   const double left = network_->link(match.link.link).length - match.along;
   const LinkPoint point = network_->at(match.link, match.along);
   if (match.along < from_end || left < from_end ||
       std::abs(wrap_angle(fix.azimuth - point.azimuth())) > parallel)
     return;
   const Eigen::Vector2d right(point.direction.y(), -point.direction.x());
-  link_.offset += metres * right.dot(network_->to_local(fix.position) - point.position);
-  link_.variance += metres * right.dot(fix.covariance * right);
-  link_.judged += metres;
+  link_.offset += step.metres * right.dot(step.place - point.position);
+  link_.variance += step.metres * right.dot(fix.covariance * right);
+  link_.judged += step.metres;
 }
 
 void DoubtCollector::leave_link() {

@@ -70,11 +70,17 @@ class DoubtCollector {
     void archive(auto& ar) { ar(segment, probability); }
   };
 
-  double advance(const VehicleFix& fix);
+  // The way from the last fix to this one.
+  struct Step {
+    Eigen::Vector2d place;  // m, of this fix
+    double metres = 0.0;
+  };
+
+  Step advance(const VehicleFix& fix);
   MapDoubt::Segment segment_at(DirectedLink link, double along) const;
-  void follow_away(const LinkMatch& match, const VehicleFix& fix, double metres);
-  void follow_link(const LinkMatch& match, const VehicleFix& fix, double metres);
-  void measure_offset(const LinkMatch& match, const VehicleFix& fix, double metres);
+  void follow_away(const LinkMatch& match, const VehicleFix& fix, const Step& step);
+  void follow_link(const LinkMatch& match, const VehicleFix& fix, const Step& step);
+  void measure_offset(const LinkMatch& match, const VehicleFix& fix, const Step& step);
   void end_away(const MapDoubt::Segment& to);
   void leave_link();
   void judge_turn(const Visit& to);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mapmatch/foot_point.h"
 #include "msgs/frames.h"
 
 namespace maploop::mapmatch {
@@ -36,8 +37,7 @@ Feedback::Line Feedback::line_beside(DirectedLink link, const Eigen::Vector2d& p
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
     const Eigen::Vector2d a = vertices[i].position();
     const Eigen::Vector2d step = vertices[i + 1].position() - a;
-    const double share =
-        std::clamp((place - a).dot(step) / std::max(step.squaredNorm(), 1e-9), 0.0, 1.0);
+    const double share = foot_share(place, a, step);
     const double distance = (place - a - share * step).squaredNorm();
     if (distance >= best) continue;
     best = distance;

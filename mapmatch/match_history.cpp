@@ -3,11 +3,6 @@
 #include <algorithm>
 
 namespace maploop::mapmatch {
-namespace {
-
-constexpr double leaving = 0.1;  // P(off road) from which the vehicle may have left the road
-
-}  // namespace
 
 void MatchHistory::add(const MatchResult& result, const Matcher& matcher) {
   results_.push_back(result);
@@ -48,7 +43,7 @@ double MatchHistory::off_road(std::size_t moment, std::size_t last) const {
   double most = results_[moments_[moment].result].off_road;
   for (std::size_t k = moment; k <= last; ++k) {
     const double off = results_[moments_[k].result].off_road;
-    if (off < leaving) break;
+    if (off < may_have_left) break;
     most = std::max(most, off);
   }
   return most;

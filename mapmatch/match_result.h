@@ -12,6 +12,9 @@ using maploop::MatchCandidate;
 using maploop::MatchPhase;
 using maploop::RuleBase;
 
+// P(off road) from which the vehicle may have left the roads of the map.
+inline constexpr double may_have_left = 0.1;
+
 // A MatchResult adds time and place to what the matcher decides about a fix.
 struct MatchResult : LinkMatch {
   Time stamp{};     // of the last fix that was not refused

@@ -46,7 +46,7 @@ struct MapDoubt : Sample {
   double length = 0.0;                       // m driven in contradiction
   Segment from;  // driven in contradiction; missing road, turn: driven before it
   Segment to;    // missing road, turn: driven after it
-  // Of a shifted road: m, the mean of the vehicle from the line, positive to its right.
+  // The vehicle was so many metres beside the line of a shifted road, positive to its right.
   double offset = std::numeric_limits<double>::quiet_NaN();
   double offset_sigma = std::numeric_limits<double>::quiet_NaN();  // m, of the offset
   std::array<Geodetic, max_points> track{};  // where the vehicle drove; heights are 0

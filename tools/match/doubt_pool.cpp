@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mapmatch/doubt_collector.h"
+#include "mapmatch/foot_point.h"
 
 namespace maploop::match {
 namespace {
@@ -16,9 +17,7 @@ double distance_to_track(const Eigen::Vector2d& p, const std::vector<Eigen::Vect
   for (std::size_t i = 1; i < track.size(); ++i) {
     const Eigen::Vector2d& a = track[i - 1];
     const Eigen::Vector2d along = track[i] - a;
-    const double length = along.squaredNorm();
-    const double share = length > 0.0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
-    least = std::min(least, (p - a - share * along).norm());
+    least = std::min(least, (p - a - mapmatch::foot_share(p, a, along) * along).norm());
   }
   return least;
 }

@@ -20,9 +20,9 @@ struct PooledDoubt {
   std::set<std::string> drives;  // which drives found it
 };
 
-// What two drives contradict is the same if it concerns the same link, turn, or, of a road that is
-// missing, the same ground within 20 m. The errors of two drives are taken to be independent, those
-// of one drive to be the same.
+// Two doubts are joined if they are about the same link or turn. Two missing roads are joined if
+// they are on the same ground within 20 m. The errors of two drives are taken to be independent,
+// those of one drive to be the same.
 class DoubtPool {
  public:
   // The network must outlive this object.
@@ -38,7 +38,7 @@ class DoubtPool {
   // The doubts that are joined in one.
   struct Group {
     PooledDoubt pooled;
-    // Of each drive the likeliest; of a shifted road the longest.
+    // This holds the likeliest doubt of each drive, or the longest one of a shifted road.
     std::map<std::string, MapDoubt> of_drive;
   };
 

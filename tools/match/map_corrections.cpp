@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "mapmatch/foot_point.h"
 #include "msgs/frames.h"
 #include "msgs/local_frame.h"
 
@@ -25,8 +26,7 @@ constexpr double same_node = 5.0;    // m
 // Returns the point of a segment that is nearest to the origin.
 Eigen::Vector2d foot(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
-  const double length = along.squaredNorm();
-  return a + (length > 0.0 ? std::clamp(-a.dot(along) / length, 0.0, 1.0) : 0.0) * along;
+  return a + mapmatch::foot_share(Eigen::Vector2d::Zero(), a, along) * along;
 }
 
 class Corrector {

@@ -60,7 +60,7 @@ struct FaultScore {
   double worst_at = 0.0;  // s since the track's start, when longest_sure_wrong ended
 };
 
-// What the doubts of one drive say of a wrong map.
+// States how well the doubts of one drive describe a wrong map.
 struct DoubtScore {
   bool found = false;      // the wrong way is doubted for what is wrong with it
   std::size_t others = 0;  // doubts of anything else

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mapmatch/doubt_collector.h"
+#include "mapmatch/foot_point.h"
 #include "msgs/frames.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/text_lines.h"
@@ -127,19 +128,20 @@ MatchedFix matched_fix(const mapmatch::MatchResult& r, const mapmatch::RoadNetwo
 
 std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& track,
                                     const MatchOutputs& outputs) {
-  mapmatch::DoubtCollector collector(matcher.network(), matcher.parameters());
+  std::optional<mapmatch::DoubtCollector> collector;
+  if (outputs.doubts) collector.emplace(matcher.network(), matcher.parameters());
   const auto take = [&](std::span<const MapDoubt> some) {
-    if (outputs.doubts) outputs.doubts->insert(outputs.doubts->end(), some.begin(), some.end());
+    outputs.doubts->insert(outputs.doubts->end(), some.begin(), some.end());
   };
   std::vector<MatchedFix> matched;
   matched.reserve(track.size());
   for (const mapmatch::VehicleFix& fix : track) {
     const mapmatch::MatchResult& result = matcher.add(fix);
     if (outputs.history) outputs.history->add(result, matcher);
-    take(collector.add(result, fix));
+    if (collector) take(collector->add(result, fix));
     matched.push_back(matched_fix(result, matcher.network()));
   }
-  take(collector.finish());
+  if (collector) take(collector->finish());
   return matched;
 }
 
@@ -157,25 +159,24 @@ std::vector<MatchedFix> nearest_segments(const mapmatch::RoadNetwork& network, c
     const Eigen::Vector2d place = network.to_local(fix.position);
     MatchedFix best;
     double best_distance = search_reach;
-    network.index().visit(
-        {place.x() - search_reach, place.y() - search_reach, place.x() + search_reach,
-         place.y() + search_reach},
-        [&](const mapmatch::IndexedSegment& s) {
-          const Eigen::Vector2d a = network.vertex(s.vertex).position();
-          const Eigen::Vector2d step = network.vertex(s.vertex + 1).position() - a;
-          const double share =
-              std::clamp((place - a).dot(step) / std::max(step.squaredNorm(), 1e-9), 0.0, 1.0);
-          const double distance = (place - a - share * step).norm();
-          if (distance >= best_distance) return;
-          for (const bool forward : {true, false}) {
-            if (!network.allowed({s.link, forward})) continue;
-            const double azimuth =
-                forward ? std::atan2(step.x(), step.y()) : std::atan2(-step.x(), -step.y());
-            if (std::abs(wrap_angle(fix.azimuth - azimuth)) > gate) continue;
-            best_distance = distance;
-            best = on_segment(network, {s.link, forward}, s.vertex, 1.0);
-          }
-        });
+    network.index().visit({place.x() - search_reach, place.y() - search_reach,
+                           place.x() + search_reach, place.y() + search_reach},
+                          [&](const mapmatch::IndexedSegment& s) {
+                            const Eigen::Vector2d a = network.vertex(s.vertex).position();
+                            const Eigen::Vector2d step =
+                                network.vertex(s.vertex + 1).position() - a;
+                            const double share = mapmatch::foot_share(place, a, step);
+                            const double distance = (place - a - share * step).norm();
+                            if (distance >= best_distance) return;
+                            for (const bool forward : {true, false}) {
+                              if (!network.allowed({s.link, forward})) continue;
+                              const double azimuth = forward ? std::atan2(step.x(), step.y())
+                                                             : std::atan2(-step.x(), -step.y());
+                              if (std::abs(wrap_angle(fix.azimuth - azimuth)) > gate) continue;
+                              best_distance = distance;
+                              best = on_segment(network, {s.link, forward}, s.vertex, 1.0);
+                            }
+                          });
     matched.push_back(best);
   }
   return matched;

@@ -54,7 +54,7 @@ struct MatchedFix {
 };
 MatchedFix matched_fix(const mapmatch::MatchResult& result, const mapmatch::RoadNetwork& network);
 
-// What else match_track() is to find.
+// These members receive what match_track() finds beside the matches, if they are set.
 struct MatchOutputs {
   std::vector<MapDoubt>* doubts = nullptr;  // what the drive contradicts of the map, likely or not
   mapmatch::MatchHistory* history = nullptr;

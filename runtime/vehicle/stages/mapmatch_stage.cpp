@@ -66,9 +66,10 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   match.sequence = ticks_++;
   counts_.add(match.refusal);
   matches_.push(match, stop);
-  publish(doubts_.add(match, mapmatch::fix_of(newest_)), match.available, stop);
+  const mapmatch::VehicleFix fix = mapmatch::fix_of(newest_);
+  publish(doubts_.add(match, fix), match.available, stop);
   if (feedback_) {
-    MapFeedback feedback = feedback_->decide(match, mapmatch::fix_of(newest_));
+    MapFeedback feedback = feedback_->decide(match, fix);
     feedback.available = match.available;
     feedbacks_.push(feedback, stop);
   }
