@@ -203,7 +203,9 @@ TEST_F(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
   EXPECT_NE(analysis.out.find("fusion: 2 ms cannot be promised"), std::string::npos)
       << "a fault made it slow: " << analysis.out;
   const json threads = read_json(file("analysis.json"))["threads"];
-  EXPECT_GT(threads["fusion"]["response_bound_ms"], 20.0);
+  // A null says that no bound exists: other work on this machine made the measured steps longer.
+  const json& bound = threads["fusion"]["response_bound_ms"];
+  EXPECT_TRUE(bound.is_null() || bound > 20.0) << bound;
   EXPECT_TRUE(threads.contains("stereo") && threads.contains("camera")) << threads;
 }
 
