@@ -32,8 +32,10 @@ void qemu_plugin_register_atexit_cb(qemu_plugin_id_t, void (*)(qemu_plugin_id_t,
                                     void* user);
 std::size_t qemu_plugin_tb_n_insns(const qemu_plugin_tb*);
 
-extern const int qemu_plugin_version;
-int qemu_plugin_install(qemu_plugin_id_t, const qemu_info_t*, int, char**);
+// The emulator looks these up in the plugin.
+[[gnu::visibility("default")]] extern const int qemu_plugin_version;
+[[gnu::visibility("default")]] int qemu_plugin_install(qemu_plugin_id_t, const qemu_info_t*, int,
+                                                       char**);
 }
 
 namespace {
