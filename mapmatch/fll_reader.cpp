@@ -26,9 +26,17 @@ std::vector<std::string> words(std::string_view text) {
   return found;
 }
 
+struct OutputTerm {
+  std::string name;
+  double constant = 0.0;
+  std::vector<double> slopes{};  // by variable
+  std::optional<MembershipFunction> shape{};
+};
+
 struct Output {
   std::string name;
-  std::vector<std::pair<std::string, double>> terms;
+  std::vector<OutputTerm> terms{};
+  Centroid centroid{};  // without steps: it is a mean
 };
 
 class Parser {
@@ -46,8 +54,17 @@ class Parser {
     for (std::size_t i = 0; i < inputs_.size(); ++i)
       if (!defined_[i]) fail("the input variable '" + std::string(inputs_[i]) + "' is missing");
     if (!output_) fail("there is no output variable");
+    const bool mamdani = output_->centroid.steps > 0;
+    for (const OutputTerm& term : output_->terms) {
+      if (term.shape.has_value() != mamdani) {
+        fail("the term '" + term.name +
+             "' does not suit the defuzzifier: a centroid needs shapes, " +
+             "a weighted average Constant or Linear terms");
+      }
+    }
     try {
-      return {std::move(variables_), std::move(rules_)};
+      return {std::move(variables_), std::move(rules_),
+              mamdani ? std::optional(output_->centroid) : std::nullopt};
     } catch (const std::invalid_argument& e) {
       fail(e.what());
     }
@@ -85,10 +102,11 @@ class Parser {
       if (defined_[variable_]) fail("the variable '" + value + "' is defined twice");
       defined_[variable_] = true;
       variables_[variable_].name = value;
+      order_.push_back(variable_);
       block_ = Block::input;
     } else if (key == "OutputVariable") {
       if (output_) fail("there is a second output variable");
-      output_ = Output{value, {}};
+      output_ = Output{value};
       block_ = Block::output;
     } else if (key == "RuleBlock") {
       if (!rules_.empty()) fail("there is a second block of rules");
@@ -107,21 +125,30 @@ class Parser {
         {"lock-range", {"false"}},
         {"default", {"nan"}},
         {"lock-previous", {"false"}},
-        {"aggregation", {"none"}},
+        {"aggregation", {"none", "Maximum"}},
         {"disjunction", {"none", ""}},
-        {"implication", {"none", ""}},
+        {"implication", {"none", "", "Minimum"}},
         {"conjunction", {"Minimum"}},
         {"activation", {"General"}},
         {"defuzzifier", {"WeightedAverage TakagiSugeno", "WeightedAverage Automatic"}}};
     if (key == "description") return;
     if (key == "range" && (block_ == Block::input || block_ == Block::output)) {
-      numbers(words(value), 0, 2);
+      const auto range = numbers(words(value), 0, 2);
+      if (block_ == Block::output) {
+        output_->centroid.low = range[0];
+        output_->centroid.high = range[1];
+      }
     } else if (key == "term" && block_ == Block::input) {
       add_term(words(value));
     } else if (key == "term" && block_ == Block::output) {
       add_output_term(words(value));
     } else if (key == "rule" && block_ == Block::rules) {
       add_rule(value);
+    } else if (key == "defuzzifier" && block_ == Block::output && value.starts_with("Centroid")) {
+      const double steps = numbers(words(value), 1, 1).front();
+      if (!(steps >= 1.0 && steps <= FuzzySystem::max_steps && steps == std::floor(steps)))
+        fail("a centroid has 1 to " + std::to_string(FuzzySystem::max_steps) + " steps");
+      output_->centroid.steps = static_cast<std::size_t>(steps);
     } else if (const auto found = fixed.find(key); found != fixed.end()) {
       if (std::find(found->second.begin(), found->second.end(), value) == found->second.end())
         fail("'" + key + "' can only be '" + std::string(found->second.front()) + "' here");
@@ -148,23 +175,28 @@ class Parser {
     return values;
   }
 
-  void add_term(const std::vector<std::string>& given) {
+  MembershipFunction shape(const std::vector<std::string>& given) const {
     using Shape = MembershipFunction::Shape;
     static const std::map<std::string_view, std::pair<Shape, std::size_t>> shapes{
         {"Sigmoid", {Shape::sigmoid, 2}},
         {"Ramp", {Shape::ramp, 2}},
         {"Triangle", {Shape::triangle, 3}},
         {"Trapezoid", {Shape::trapezoid, 4}}};
-    if (given.size() < 2) fail("a term must be 'NAME SHAPE PARAMETERS'");
-    const auto shape = shapes.find(given[1]);
-    if (shape == shapes.end())
+    const auto found = shapes.find(given[1]);
+    if (found == shapes.end())
       fail("the shape '" + given[1] + "' is not Sigmoid, Ramp, Triangle or Trapezoid");
-    FuzzyTerm term{given[0], {shape->second.first, {}}};
-    const auto values = numbers(given, 2, shape->second.second);
-    std::copy(values.begin(), values.end(), term.membership.parameters.begin());
-    if (shape->second.first != Shape::sigmoid && shape->second.first != Shape::ramp &&
+    MembershipFunction function{found->second.first, {}};
+    const auto values = numbers(given, 2, found->second.second);
+    std::copy(values.begin(), values.end(), function.parameters.begin());
+    if (function.shape != Shape::sigmoid && function.shape != Shape::ramp &&
         !std::is_sorted(values.begin(), values.end()))
       fail("the corners of '" + given[0] + "' are not in ascending order");
+    return function;
+  }
+
+  void add_term(const std::vector<std::string>& given) {
+    if (given.size() < 2) fail("a term must be 'NAME SHAPE PARAMETERS'");
+    FuzzyTerm term{given[0], shape(given)};
     if (++terms_ > FuzzySystem::max_terms)
       fail("more than " + std::to_string(FuzzySystem::max_terms) + " terms");
     auto& terms = variables_[variable_].terms;
@@ -174,18 +206,33 @@ class Parser {
   }
 
   void add_output_term(const std::vector<std::string>& given) {
-    if (given.size() < 2 || given[1] != "Constant")
-      fail("an output term must be 'NAME Constant VALUE'");
+    if (given.size() < 2) {
+      fail(
+          "an output term must be 'NAME Constant VALUE', 'NAME Linear SLOPES VALUE' or "
+          "'NAME SHAPE PARAMETERS'");
+    }
     if (output_->terms.size() == FuzzySystem::max_terms)
       fail("more than " + std::to_string(FuzzySystem::max_terms) + " terms");
     if (output_term(given[0])) fail("the term '" + given[0] + "' is defined twice");
-    output_->terms.emplace_back(given[0], numbers(given, 2, 1).front());
+    OutputTerm term{given[0]};
+    if (given[1] == "Constant") {
+      term.constant = numbers(given, 2, 1).front();
+    } else if (given[1] == "Linear") {
+      // The slopes are in the order of the file's input variables.
+      const auto values = numbers(given, 2, order_.size() + 1);
+      term.slopes.resize(inputs_.size());
+      for (std::size_t i = 0; i < order_.size(); ++i) term.slopes[order_[i]] = values[i];
+      term.constant = values.back();
+    } else {
+      term.shape = shape(given);
+    }
+    output_->terms.push_back(std::move(term));
   }
 
-  std::optional<double> output_term(const std::string& name) const {
-    for (const auto& [term, value] : output_->terms)
-      if (term == name) return value;
-    return {};
+  const OutputTerm* output_term(const std::string& name) const {
+    for (const OutputTerm& term : output_->terms)
+      if (term.name == name) return &term;
+    return nullptr;
   }
 
   void add_rule(const std::string& text) {
@@ -202,11 +249,17 @@ class Parser {
     } while (at < w.size() && w[at++] == "and");
     if (w[at - 1] != "then" && (at >= w.size() || w[at] != "then"))
       fail("'and' or 'then' is expected after word " + std::to_string(at - 1));
-    if (w.size() != at + 3 || w[at + 1] != "is") fail("only 'OUTPUT is TERM' may follow 'then'");
+    const bool weighted = w.size() == at + 5 && w[at + 3] == "with";
+    if ((w.size() != at + 3 && !weighted) || w[at + 1] != "is")
+      fail("only 'OUTPUT is TERM' or 'OUTPUT is TERM with WEIGHT' may follow 'then'");
     if (!output_ || w[at] != output_->name) fail("'" + w[at] + "' is not the output variable");
-    const auto value = output_term(w[at + 2]);
-    if (!value) fail("'" + w[at + 2] + "' is not a term of '" + w[at] + "'");
-    rule.output = *value;
+    const OutputTerm* term = output_term(w[at + 2]);
+    if (!term) fail("'" + w[at + 2] + "' is not a term of '" + w[at] + "'");
+    rule.output = term->constant;
+    rule.slopes = term->slopes;
+    rule.conclusion = term->shape.value_or(MembershipFunction{});
+    if (weighted) rule.weight = numbers(w, at + 4, 1).front();
+    if (rule.weight < 0.0) fail("a weight is not negative");
     rules_.push_back(std::move(rule));
   }
 
@@ -235,8 +288,9 @@ class Parser {
   Block block_ = Block::none;
   std::vector<FuzzyVariable> variables_;
   std::vector<bool> defined_;
-  std::size_t variable_ = 0;  // of the current block
-  std::size_t terms_ = 0;     // of all input variables
+  std::vector<std::size_t> order_;  // the variables as the file has them
+  std::size_t variable_ = 0;        // of the current block
+  std::size_t terms_ = 0;           // of all input variables
   std::optional<Output> output_;
   std::vector<FuzzyRule> rules_;
 };

@@ -1,9 +1,10 @@
 // Rule bases are read here from FLL, the language of the fuzzylite library and its program.
 //
-// The reader accepts the part of FLL that a zero-order Takagi-Sugeno-Kang system needs: input
-// variables with Sigmoid, Ramp, Triangle and Trapezoid terms, one output variable with Constant
-// terms, and one block of rules "if A is T and B is T then OUT is T". It refuses anything else, so
-// that no rule is silently ignored.
+// The reader accepts the part of FLL that these systems need: input variables with Sigmoid, Ramp,
+// Triangle and Trapezoid terms; one output variable with Constant or Linear terms and the
+// defuzzifier WeightedAverage, or with shapes, the aggregation Maximum and the defuzzifier Centroid
+// (with the implication Minimum); and one block of rules "if A is T and B is T then OUT is T",
+// perhaps "with WEIGHT". It refuses anything else, so that no rule is silently ignored.
 #pragma once
 
 #include <filesystem>

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double min_weight = 1e-6;  // sum over all rules
+constexpr double min_strength = 1e-6;  // sum over all rules
 
 // Returns the position of x between a and b as a share, limited to [0, 1]; a step if a equals b.
 double rise(double x, double a, double b) {
@@ -33,8 +34,9 @@ double MembershipFunction::operator()(double x) const {
   return 0.0;
 }
 
-FuzzySystem::FuzzySystem(std::vector<FuzzyVariable> variables, std::vector<FuzzyRule> rules)
-    : variables_(std::move(variables)), rules_(std::move(rules)) {
+FuzzySystem::FuzzySystem(std::vector<FuzzyVariable> variables, std::vector<FuzzyRule> rules,
+                         std::optional<Centroid> centroid)
+    : variables_(std::move(variables)), rules_(std::move(rules)), centroid_(centroid) {
   std::size_t terms = 0;
   for (const FuzzyVariable& v : variables_) {
     first_term_.push_back(terms);
@@ -47,10 +49,18 @@ FuzzySystem::FuzzySystem(std::vector<FuzzyVariable> variables, std::vector<Fuzzy
     throw std::invalid_argument("more than " + std::to_string(max_rules) + " rules");
   for (const FuzzyRule& rule : rules_) {
     if (rule.conditions.empty()) throw std::invalid_argument("a rule has no condition");
+    if (!(rule.weight >= 0.0)) throw std::invalid_argument("the weight of a rule is negative");
+    if (!rule.slopes.empty() && rule.slopes.size() != variables_.size())
+      throw std::invalid_argument("a linear term needs one slope for each input variable");
     for (const FuzzyCondition& c : rule.conditions) {
       if (c.variable >= variables_.size() || c.term >= variables_[c.variable].terms.size())
         throw std::invalid_argument("a rule uses a variable or a term that is not defined");
     }
+  }
+  if (centroid_ && (centroid_->steps == 0 || centroid_->steps > max_steps ||
+                    !(centroid_->low < centroid_->high))) {
+    throw std::invalid_argument("a centroid needs a range, and 1 to " + std::to_string(max_steps) +
+                                " steps");
   }
 }
 
@@ -65,20 +75,59 @@ FuzzySystem::Result FuzzySystem::evaluate(std::span<const double> inputs) const 
     }
   }
   Result result;
-  double sum = 0.0, weighted = 0.0;
+  Strengths strengths{};
   for (std::size_t r = 0; r < rules_.size(); ++r) {
-    double weight = 1.0;
+    double least = 1.0;
     for (const FuzzyCondition& c : rules_[r].conditions) {
       const double mu = membership[first_term_[c.variable] + c.term];
-      weight = std::isnan(mu) ? 0.0 : std::min(weight, mu);
+      least = std::isnan(mu) ? 0.0 : std::min(least, mu);
     }
-    result.weights[r] = static_cast<float>(weight);
-    sum += weight;
-    weighted += weight * rules_[r].output;
+    strengths[r] = rules_[r].weight * least;
+    result.weights[r] = static_cast<float>(strengths[r]);
   }
-  result.decided = sum >= min_weight;
-  if (result.decided) result.value = weighted / sum;  // (13) of METHOD.md
+  if (centroid_) {
+    infer_centroid(strengths, result);
+  } else {
+    infer_mean(inputs, strengths, result);
+  }
   return result;
+}
+
+void FuzzySystem::infer_mean(std::span<const double> inputs, const Strengths& strengths,
+                             Result& result) const {
+  double sum = 0.0, weighted = 0.0;
+  for (std::size_t r = 0; r < rules_.size(); ++r) {
+    double value = rules_[r].output;
+    for (std::size_t v = 0; v < rules_[r].slopes.size(); ++v) {
+      if (rules_[r].slopes[v] != 0.0) value += rules_[r].slopes[v] * inputs[v];
+    }
+    if (!std::isfinite(value)) {  // it depends on what is not known
+      result.weights[r] = 0.0f;
+      continue;
+    }
+    sum += strengths[r];
+    weighted += strengths[r] * value;
+  }
+  result.decided = sum >= min_strength;
+  if (result.decided) result.value = weighted / sum;  // (13) of METHOD.md
+}
+
+void FuzzySystem::infer_centroid(const Strengths& strengths, Result& result) const {
+  const double step = (centroid_->high - centroid_->low) / static_cast<double>(centroid_->steps);
+  double area = 0.0, moment = 0.0;
+  for (std::size_t i = 0; i < centroid_->steps; ++i) {
+    const double x = centroid_->low + (static_cast<double>(i) + 0.5) * step;
+    double height = 0.0;
+    for (std::size_t r = 0; r < rules_.size(); ++r) {
+      if (strengths[r] > height)
+        height = std::max(height, std::min(strengths[r], rules_[r].conclusion(x)));
+    }
+    area += height;
+    moment += height * x;
+  }
+  const double sum = std::accumulate(strengths.begin(), strengths.end(), 0.0);
+  result.decided = sum >= min_strength && area > 0.0;
+  if (result.decided) result.value = moment / area;  // (13) of METHOD.md
 }
 
 }  // namespace maploop::mapmatch

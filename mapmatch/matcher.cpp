@@ -34,10 +34,15 @@ FixRefusal Matcher::check(const VehicleFix& fix) {
 void Matcher::restart() {
   motion_.reset();
   paths_.reset();
+  next_anchor_ = 0;
+  start_again();
+}
+
+// Returns to initial matching.
+void Matcher::start_again() {
   last_ = {};
   has_winner_ = false;
   agreed_ = 0.0;
-  next_anchor_ = 0;
   result_.phase = MatchPhase::initial;
 }
 
@@ -72,6 +77,12 @@ const MatchResult& Matcher::add(const VehicleFix& fix) {
   list_candidates(context);
   judge(context);
   const MatchCandidate* chosen = choose();
+  if (!chosen && !parameters_.paths && last_.there) {
+    // The rules refuse every link behind the last one, so matching starts again with this fix.
+    start_again();
+    judge(context);
+    chosen = choose();
+  }
   follow(chosen, motion.interval);
   report(chosen);
   return result_;

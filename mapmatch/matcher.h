@@ -59,6 +59,7 @@ class Matcher {
 
   static FixRefusal check(const VehicleFix& fix);
   void restart();
+  void start_again();
   void list_candidates(const RuleContext& context);
   MatchCandidate* candidate_of(DirectedLink link);
   void judge(const RuleContext& context);

@@ -57,7 +57,10 @@ TEST(FllReader, EveryMistakeIsRefusedWithFileAndLine) {
               HasSubstr("small.fll:13: 'c' is not an input variable"));
   EXPECT_THAT(refusal("out is bad", "out is worse"), HasSubstr("small.fll:13: 'worse'"));
   EXPECT_THAT(refusal("then out", "then ouch"), HasSubstr("'ouch' is not the output"));
-  EXPECT_THAT(refusal("is bad", "is bad with 0.5"), HasSubstr("may follow"));
+  EXPECT_EQ(refusal("is bad", "is bad with 0.5"), "accepted");
+  EXPECT_THAT(refusal("is bad", "is bad with"), HasSubstr("may follow"));
+  EXPECT_THAT(refusal("is bad", "is bad with -1"), HasSubstr("small.fll:13: a weight"));
+  EXPECT_THAT(refusal("is bad", "is bad with half"), HasSubstr("'half' is not a finite number"));
   EXPECT_THAT(refusal("and b", "or b"), HasSubstr("small.fll:13: 'and' or 'then'"));
   EXPECT_THAT(refusal("and b is high", "and b is not high"), HasSubstr("small.fll:13"));
   EXPECT_THAT(refusal("if a is low and b is high then out is bad", "if"), HasSubstr("a condition"));
@@ -75,7 +78,16 @@ TEST(FllReader, EveryMistakeIsRefusedWithFileAndLine) {
   EXPECT_THAT(refusal("InputVariable: b", "InputVariable: a"), HasSubstr("defined twice"));
   EXPECT_THAT(refusal("InputVariable: b\n  term: high Sigmoid 5 1\n", ""),
               HasSubstr("'b' is not an input variable"));
-  EXPECT_THAT(refusal("Constant 10", "Linear 1 2 3"), HasSubstr("small.fll:10: an output term"));
+  EXPECT_EQ(refusal("Constant 10", "Linear 1 2 3"), "accepted");
+  EXPECT_THAT(refusal("Constant 10", "Linear 1 2"), HasSubstr("small.fll:10: 3 numbers"));
+  EXPECT_THAT(refusal("bad Constant 10", "bad"), HasSubstr("small.fll:10: an output term"));
+  EXPECT_THAT(refusal("Constant 10", "Constance 10"), HasSubstr("'Constance' is not Sigmoid"));
+  EXPECT_THAT(refusal("Constant 10", "Ramp 0 1"), HasSubstr("does not suit the defuzzifier"));
+  const std::string mean = "WeightedAverage TakagiSugeno";
+  EXPECT_THAT(refusal(mean, "Centroid 100"), HasSubstr("does not suit the defuzzifier"));
+  EXPECT_THAT(refusal(mean, "Centroid 0"), HasSubstr("small.fll:9: a centroid has 1 to 1000"));
+  EXPECT_THAT(refusal(mean, "Centroid 1.5"), HasSubstr("a centroid has 1 to 1000 steps"));
+  EXPECT_THAT(refusal(mean, "Bisector 100"), HasSubstr("'defuzzifier' can only be"));
   EXPECT_THAT(refusal("Minimum", "AlgebraicProduct"), HasSubstr("small.fll:12: 'conjunction'"));
   EXPECT_THAT(refusal("range: 0 10", "ragne: 0 10"),
               HasSubstr("small.fll:3: 'ragne' is not known"));

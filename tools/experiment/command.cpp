@@ -9,6 +9,7 @@ void add_experiment(CLI::App& app, Command& command) {
   experiment->require_subcommand(1);
   add_map_fault_experiment(*experiment, command);
   add_match_experiment(*experiment, command);
+  add_rules_experiment(*experiment, command);
 }
 
 }  // namespace maploop::tools

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "tools/command/recorded_drive_options.h"
 #include "tools/experiment/experiments.h"
 #include "tools/experiment/table.h"
+#include "tools/match/baseline_matchers.h"
 #include "tools/match/parameter_settings.h"
 #include "tools/match/recorded_drives.h"
 
@@ -21,106 +23,149 @@ namespace maploop::tools {
 namespace {
 
 struct MatchExperimentOptions : RecordedDriveOptions {
+  std::filesystem::path rules = mapmatch::default_rules();
   std::filesystem::path json;
+  double beta = 5.0;  // m
   bool each = false;
 };
 
+// A way to match the fixes of a track.
+struct NamedMatcher {
+  const char* name;
+  std::function<std::vector<match::MatchedFix>(const match::Track&)> match;
+};
+
 struct Scores {
-  match::MatchScore ours, after_3_s, after_10_s, baseline;
+  match::MatchScore score;
   double seconds = 0.0;
   std::size_t fixes = 0;
+
+  Scores& operator+=(const Scores& more) {
+    score += more.score;
+    seconds += more.seconds;
+    fixes += more.fixes;
+    return *this;
+  }
 };
 
-struct ConditionScores {
-  Scores pooled;
-  std::vector<Scores> each;  // of the drives
+struct Case {
+  std::string name;
+  std::vector<Scores> scores;  // by matcher
 };
 
-experiments::Row row_of(const std::string& name, const Scores& s) {
-  using experiments::number;
-  const auto percent = [](double share) { return number(100.0 * share, 2); };
-  const auto baseline_wrong = static_cast<double>(s.baseline.certain.wrong());
-  const auto wrong = static_cast<double>(s.ours.certain.wrong());
-  return {name,
-          std::to_string(s.ours.all.fixes),
-          percent(s.ours.all.share()),
-          percent(s.after_3_s.all.share()),
-          percent(s.after_10_s.all.share()),
-          percent(s.baseline.all.share()),
-          percent(s.ours.certain.share()),
-          percent(s.after_3_s.certain.share()),
-          percent(s.after_10_s.certain.share()),
-          percent(s.baseline.certain.share()),
-          percent(s.ours.all.coverage()),
-          percent(s.baseline.all.coverage()),
-          number(baseline_wrong == 0.0 ? 0.0 : wrong / baseline_wrong, 2),
-          number(1e6 * s.seconds / static_cast<double>(std::max<std::size_t>(1, s.fixes)), 1)};
+std::vector<NamedMatcher> matchers(const mapmatch::RoadNetwork& network,
+                                   const mapmatch::RuleBases& rules,
+                                   const mapmatch::MatchParameters& parameters, double beta) {
+  mapmatch::MatchParameters alone = parameters;
+  alone.paths = false;
+  const auto at_once = [&network, &rules](const mapmatch::MatchParameters& p) {
+    return [&network, &rules, p](const match::Track& track) {
+      mapmatch::Matcher matcher(network, rules, p);
+      return match::match_track(matcher, track);
+    };
+  };
+  const auto later = [&network, &rules, parameters](Duration lag) {
+    return [&network, &rules, parameters, lag](const match::Track& track) {
+      mapmatch::Matcher matcher(network, rules, parameters);
+      mapmatch::MatchHistory history(network);
+      match::match_track(matcher, track, {.history = &history});
+      return match::match_later(history, lag, network);
+    };
+  };
+  return {
+      {"ours", at_once(parameters)},
+      {"3 s", later(std::chrono::seconds(3))},
+      {"10 s", later(std::chrono::seconds(10))},
+      {"rules", at_once(alone)},
+      {"nearest", [&](const auto& track) { return match::nearest_segments(network, track); }},
+      {"weights", [&](const auto& track) { return match::topological_weights(network, track); }},
+      {"ellipse", [&](const auto& track) { return match::probabilistic_ellipse(network, track); }},
+      {"HMM",
+       [&network, beta](const auto& track) { return match::hidden_markov(network, track, beta); }}};
 }
 
-// Returns the scores for each condition.
-std::vector<ConditionScores> run(const MatchExperimentOptions& options,
-                                 const std::vector<match::InputCondition>& conditions) {
-  const mapmatch::RoadNetwork network(mapmatch::open_network(options.map));
-  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
-  mapmatch::MatchParameters parameters;
-  match::apply_settings(options.set, parameters);
+Scores run(const NamedMatcher& matcher, const match::RecordedDrive& drive,
+           const std::vector<match::NoisyTrack>& tracks) {
+  Scores scores;
+  for (const match::NoisyTrack& noisy : tracks) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto matched = matcher.match(noisy.track);
+    scores.seconds += to_seconds(std::chrono::steady_clock::now() - start);
+    scores.fixes += noisy.track.size();
+    scores.score.add(matched, noisy.rows, drive.labels);
+  }
+  return scores;
+}
+
+// Returns the scores for each condition, and before them those of each drive if they are wanted.
+std::vector<Case> run_all(const MatchExperimentOptions& options,
+                          const mapmatch::RoadNetwork& network,
+                          const std::vector<NamedMatcher>& all) {
   const match::SegmentLinks links(network);
-  std::vector<ConditionScores> scores(conditions.size());
+  const std::vector<match::InputCondition> conditions = match::input_conditions();
+  std::vector<std::vector<Case>> drives(conditions.size());
+  std::vector<Case> pooled;
+  for (const match::InputCondition& condition : conditions)
+    pooled.push_back({condition.name, std::vector<Scores>(all.size())});
   for (const std::string& name : options.sequences) {
     std::cerr << "\rsequence " << name << std::flush;
     match::RecordedDrive drive = match::read_recorded_drive(options.data, name);
     links.look_up(drive.labels);
     for (std::size_t c = 0; c < conditions.size(); ++c) {
-      Scores& own = scores[c].each.emplace_back();
-      for (const match::NoisyTrack& noisy : conditions[c].realizations(drive, options.seeds)) {
-        mapmatch::Matcher matcher(network, rules, parameters);
-        const auto start = std::chrono::steady_clock::now();
-        const auto matched = match::match_track(matcher, noisy.track);
-        const double seconds = to_seconds(std::chrono::steady_clock::now() - start);
-        mapmatch::Matcher again(network, rules, parameters);
-        mapmatch::MatchHistory history(network);
-        match::match_track(again, noisy.track, {.history = &history});
-        const auto after_3_s = match::match_later(history, std::chrono::seconds(3), network);
-        const auto after_10_s = match::match_later(history, std::chrono::seconds(10), network);
-        const auto nearest = match::nearest_segments(network, noisy.track);
-        for (Scores* s : {&own, &scores[c].pooled}) {
-          s->seconds += seconds;
-          s->fixes += noisy.track.size();
-          s->ours.add(matched, noisy.rows, drive.labels);
-          s->after_3_s.add(after_3_s, noisy.rows, drive.labels);
-          s->after_10_s.add(after_10_s, noisy.rows, drive.labels);
-          s->baseline.add(nearest, noisy.rows, drive.labels);
-        }
+      const auto tracks = conditions[c].realizations(drive, options.seeds);
+      Case& own = drives[c].emplace_back(Case{name, {}});
+      for (std::size_t m = 0; m < all.size(); ++m) {
+        own.scores.push_back(run(all[m], drive, tracks));
+        pooled[c].scores[m] += own.scores.back();
       }
     }
   }
   std::cerr << '\n';
-  return scores;
+  std::vector<Case> cases;
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    if (options.each) cases.insert(cases.end(), drives[c].begin(), drives[c].end());
+    cases.push_back(std::move(pooled[c]));
+  }
+  return cases;
+}
+
+template <class Figure>
+experiments::Table table_of(const char* title, const std::vector<NamedMatcher>& all,
+                            const std::vector<Case>& cases, const Figure& figure) {
+  experiments::Table table{title, {"input", "fixes"}, {}};
+  for (const NamedMatcher& matcher : all) table.heading.emplace_back(matcher.name);
+  for (const Case& c : cases) {
+    experiments::Row& row = table.rows.emplace_back(
+        experiments::Row{c.name, std::to_string(c.scores[0].score.all.fixes)});
+    for (const Scores& s : c.scores) row.push_back(figure(s));
+  }
+  return table;
 }
 
 int match_experiment(const MatchExperimentOptions& options) {
-  const auto conditions = match::input_conditions();
-  const auto scores = run(options, conditions);
-  experiments::Table table{
-      "Fixes on the right way: at once, 3 and 10 s later, and of the nearest segment "
-      "(base)",
-      {"input", "fixes", "all frames %", "3 s", "10 s", "base", "conf = 1 %", "3 s", "10 s", "base",
-       "coverage %", "base", "wrong / base", "us a fix"},
-      {}};
+  const mapmatch::RoadNetwork network(mapmatch::open_network(options.map));
+  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(options.rules);
+  mapmatch::MatchParameters parameters;
+  match::apply_settings(options.set, parameters);
+  const auto all = matchers(network, rules, parameters, options.beta);
+  const std::vector<Case> cases = run_all(options, network, all);
+  using experiments::number;
+  std::cout << as_text(table_of("All fixes: % on the right way", all, cases, [](const Scores& s) {
+    return number(100.0 * s.score.all.share(), 2);
+  })) << as_text(table_of("conf = 1: % on the right way", all, cases, [](const Scores& s) {
+    return number(100.0 * s.score.certain.share(), 2);
+  })) << as_text(table_of("Time, us a fix", all, cases, [](const Scores& s) {
+    return number(1e6 * s.seconds / static_cast<double>(std::max<std::size_t>(1, s.fixes)), 1);
+  }));
   nlohmann::json json;
   match::Reliability reliability;
-  for (std::size_t c = 0; c < conditions.size(); ++c) {
-    for (std::size_t d = 0; options.each && d < options.sequences.size(); ++d)
-      table.rows.push_back(row_of(options.sequences[d], scores[c].each[d]));
-    const Scores& pooled = scores[c].pooled;
-    table.rows.push_back(row_of(conditions[c].name, pooled));
-    json[conditions[c].name] = {{"ours", match::to_json(pooled.ours)},
-                                {"lag 3 s", match::to_json(pooled.after_3_s)},
-                                {"lag 10 s", match::to_json(pooled.after_10_s)},
-                                {"baseline", match::to_json(pooled.baseline)}};
-    reliability += pooled.ours.reliability;
+  const std::size_t step = options.each ? options.sequences.size() + 1 : 1;
+  for (std::size_t c = step - 1; c < cases.size(); c += step) {  // the pooled ones
+    reliability += cases[c].scores[0].score.reliability;
+    for (std::size_t m = 0; m < all.size(); ++m)
+      json[cases[c].name][all[m].name] = match::to_json(cases[c].scores[m].score);
   }
-  std::cout << as_text(table) << "all conditions:\n" << match::to_text(reliability);
+  std::cout << "ours, all conditions:\n" << match::to_text(reliability);
   if (!options.json.empty()) write_json_file(options.json, json);
   return 0;
 }
@@ -131,9 +176,19 @@ void add_match_experiment(CLI::App& experiment, Command& command) {
   auto options = std::make_shared<MatchExperimentOptions>();
   CLI::App* sub = experiment.add_subcommand(
       "match",
-      "Map matching against labels of the links driven, beside the nearest segment with an azimuth "
-      "gate: without noise, with white and with Gauss-Markov noise, at 1 and 10 Hz");
+      "Map matching at once, 3 and 10 s later and with the rules alone, against labels of the "
+      "links "
+      "driven; beside the nearest segment, topological weights, the error ellipse and a hidden "
+      "Markov model. Without noise, with white and with Gauss-Markov noise, at 1 and 10 Hz");
   add_recorded_drive_options(*sub, *options, "OpenStreetMap file, or a network file");
+  sub->add_option("--rules", options->rules, "Folder with rule bases of your own (.fll)")
+      ->check(existing_folder());
+  sub->add_option(
+         "--beta", options->beta,
+         "Of the hidden Markov model: mean difference of driven distance and straight line, "
+         "m")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   sub->add_flag("--each", options->each, "A line for each sequence, too");
   sub->add_option("--json", options->json, "Write the figures to this file as JSON")
       ->check(writable_file());

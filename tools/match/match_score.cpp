@@ -9,22 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "mapmatch/doubt_collector.h"
-#include "mapmatch/foot_point.h"
 #include "msgs/frames.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/text_lines.h"
 
 namespace maploop::match {
 namespace {
-
-constexpr double search_reach = 100.0;  // m
-constexpr double gate = radians(50.0);  // for the baseline
-
-MatchedFix on_segment(const mapmatch::RoadNetwork& network, mapmatch::DirectedLink link,
-                      std::uint32_t vertex, double p) {
-  const auto [a, b] = network.nodes(link, vertex);
-  return {network.road_at(vertex).way_id, a, b, p, link};
-}
 
 // Returns the mean P(link) of a bin and its share of right matches.
 std::pair<double, double> said_and_right(const Reliability& r, std::size_t bin) {
@@ -42,6 +32,12 @@ std::string line(const char* what, const Tally& t) {
 }
 
 }  // namespace
+
+MatchedFix on_segment(const mapmatch::RoadNetwork& network, mapmatch::DirectedLink link,
+                      std::uint32_t vertex, double p) {
+  const auto [a, b] = network.nodes(link, vertex);
+  return {network.road_at(vertex).way_id, a, b, p, link};
+}
 
 Labels read_labels(const std::filesystem::path& file) {
   const std::string text = evaluation::read_text(file);
@@ -85,6 +81,14 @@ Tally& Tally::operator+=(const Tally& more) {
   return *this;
 }
 
+MatchScore& MatchScore::operator+=(const MatchScore& more) {
+  all += more.all;
+  certain += more.certain;
+  reliability += more.reliability;
+  lacking_fixes += more.lacking_fixes;
+  lacking_p_sum += more.lacking_p_sum;
+  return *this;
+}
 Reliability& Reliability::operator+=(const Reliability& more) {
   for (std::size_t k = 0; k < fixes.size(); ++k) {
     fixes[k] += more.fixes[k];
@@ -150,35 +154,6 @@ std::vector<MatchedFix> match_later(const mapmatch::MatchHistory& history, Durat
   std::vector<MatchedFix> matched;
   for (const mapmatch::MatchResult& result : history.judged_after(lag))
     matched.push_back(matched_fix(result, network));
-  return matched;
-}
-
-std::vector<MatchedFix> nearest_segments(const mapmatch::RoadNetwork& network, const Track& track) {
-  std::vector<MatchedFix> matched;
-  for (const mapmatch::VehicleFix& fix : track) {
-    const Eigen::Vector2d place = network.to_local(fix.position);
-    MatchedFix best;
-    double best_distance = search_reach;
-    network.index().visit({place.x() - search_reach, place.y() - search_reach,
-                           place.x() + search_reach, place.y() + search_reach},
-                          [&](const mapmatch::IndexedSegment& s) {
-                            const Eigen::Vector2d a = network.vertex(s.vertex).position();
-                            const Eigen::Vector2d step =
-                                network.vertex(s.vertex + 1).position() - a;
-                            const double share = mapmatch::foot_share(place, a, step);
-                            const double distance = (place - a - share * step).norm();
-                            if (distance >= best_distance) return;
-                            for (const bool forward : {true, false}) {
-                              if (!network.allowed({s.link, forward})) continue;
-                              const double azimuth = forward ? std::atan2(step.x(), step.y())
-                                                             : std::atan2(-step.x(), -step.y());
-                              if (std::abs(wrap_angle(fix.azimuth - azimuth)) > gate) continue;
-                              best_distance = distance;
-                              best = on_segment(network, {s.link, forward}, s.vertex, 1.0);
-                            }
-                          });
-    matched.push_back(best);
-  }
   return matched;
 }
 

@@ -52,6 +52,9 @@ struct MatchedFix {
   double p_link = 0.0;
   std::optional<mapmatch::DirectedLink> link{};  // if it is known
 };
+// `vertex` is the first stored one of the segment, and `p` P(link).
+MatchedFix on_segment(const mapmatch::RoadNetwork& network, mapmatch::DirectedLink link,
+                      std::uint32_t vertex, double p);
 MatchedFix matched_fix(const mapmatch::MatchResult& result, const mapmatch::RoadNetwork& network);
 
 // These members receive what match_track() finds beside the matches, if they are set.
@@ -67,10 +70,6 @@ std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& tra
 // Returns the matches of the fixes, each judged by the fixes until `lag` after it.
 std::vector<MatchedFix> match_later(const mapmatch::MatchHistory& history, Duration lag,
                                     const mapmatch::RoadNetwork& network);
-
-// The baseline: returns the nearest segment within 100 m whose azimuth differs by at most 50
-// degrees from the vehicle's.
-std::vector<MatchedFix> nearest_segments(const mapmatch::RoadNetwork& network, const Track& track);
 
 struct Tally {
   std::size_t fixes = 0, matched = 0, right = 0;
@@ -100,6 +99,8 @@ struct MatchScore {
   // On links that the network lacks, of labels that were looked up in it.
   std::size_t lacking_fixes = 0;
   double lacking_p_sum = 0.0;
+
+  MatchScore& operator+=(const MatchScore& more);
 
   // `rows` are the track's row numbers of the fixes; fixes without a label do not count.
   void add(const std::vector<MatchedFix>& matched, const std::vector<std::size_t>& rows,
