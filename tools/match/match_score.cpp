@@ -190,6 +190,15 @@ std::string to_text(const MatchScore& score) {
   return line("all labels", score.all) + line("conf = 1", score.certain);
 }
 
+double Reliability::calibration_error() const {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < fixes.size(); ++k) {
+    sum += std::abs(p_sum[k] - static_cast<double>(right[k]));
+    count += static_cast<double>(fixes[k]);
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
 std::string to_text(const Reliability& r) {
   std::string text = "  P(link) said, mean -> share on the right way (fixes)\n";
   for (std::size_t k = 0; k < r.fixes.size(); ++k) {
@@ -198,6 +207,7 @@ std::string to_text(const Reliability& r) {
     text += fmt::format("  {:.1f} to {:.1f}: {:.3f} -> {:.3f} ({})\n", 0.1 * static_cast<double>(k),
                         0.1 * static_cast<double>(k + 1), said, right, r.fixes[k]);
   }
+  text += fmt::format("  expected calibration error {:.4f}\n", r.calibration_error());
   return text;
 }
 
@@ -211,7 +221,8 @@ nlohmann::json to_json(const MatchScore& score) {
   }
   return {{"all", to_json(score.all)},
           {"certain", to_json(score.certain)},
-          {"reliability", reliability}};
+          {"reliability", reliability},
+          {"calibration_error", r.calibration_error()}};
 }
 
 }  // namespace maploop::match

@@ -91,6 +91,9 @@ struct Reliability {
   std::array<double, 10> p_sum{};
 
   Reliability& operator+=(const Reliability& more);
+  // Returns the expected calibration error: the mean, over the fixes, of the difference between the
+  // mean P of their bin and the share of it that is right.
+  double calibration_error() const;
 };
 
 struct MatchScore {

@@ -137,6 +137,25 @@ TEST(RealDrives, WhatIsSaidWithHighProbabilityIsRight) {
               r.p_sum[9] / static_cast<double>(r.fixes[9]), 0.02);
 }
 
+// On drives on which no parameter of P was chosen but those for missing roads.
+TEST(RealDrives, ProbabilitiesOfLinksAreCalibrated) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  static const mapmatch::RoadNetwork network(mapmatch::open_network(karlsruhe()));
+  const SegmentLinks links(network);
+  MatchScore score;
+  for (const char* sequence : {"01", "06", "08", "10"}) {
+    RecordedDrive drive = recorded(sequence);
+    links.look_up(drive.labels);
+    for (const InputCondition& condition : input_conditions()) {
+      for (const NoisyTrack& track : condition.realizations(drive, 1)) {
+        mapmatch::Matcher matcher(network, rules(), {});
+        score.add(match_track(matcher, track.track), track.rows, drive.labels);
+      }
+    }
+  }
+  EXPECT_LE(score.reliability.calibration_error(), 0.018);  // the result is 0.014
+}
+
 TEST(RealDrives, AWrongMapIsNeverBelievedForLong) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const mapmatch::MapExtract map = mapmatch::read_osm(karlsruhe());
