@@ -10,31 +10,26 @@
 #include <vector>
 
 #include "mapmatch/matcher.h"
-#include "mapmatch/network_file.h"
 #include "mapmatch/reasons.h"
 #include "tools/command/commands.h"
+#include "tools/command/match_input_options.h"
 #include "tools/command/option_checks.h"
 #include "tools/match/doubts_file.h"
 #include "tools/match/match_score.h"
-#include "tools/match/parameter_settings.h"
-#include "tools/match/track_file.h"
 
 namespace maploop::tools {
 namespace {
 
-struct DoubtOptions {
-  std::filesystem::path map, output;
+struct DoubtOptions : MatchInputOptions {
+  std::filesystem::path output;
   std::vector<std::filesystem::path> tracks;
   double min_probability = 0.5;
-  std::vector<std::string> set;
-  match::TrackOptions track_options;
 };
 
 int find_doubts(const DoubtOptions& options) {
-  const mapmatch::RoadNetwork network(mapmatch::open_network(options.map));
-  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
-  mapmatch::MatchParameters parameters;
-  match::apply_settings(options.set, parameters);
+  const mapmatch::RoadNetwork network = options.network();
+  const mapmatch::RuleBases rules = options.rule_bases();
+  const mapmatch::MatchParameters parameters = options.parameters();
   if (!parameters.paths) {
     throw std::runtime_error(
         "paths = false leaves the rules alone, which give no probabilities of a link: doubts need "
@@ -46,8 +41,7 @@ int find_doubts(const DoubtOptions& options) {
     std::cerr << "\r\033[K" << file.filename().string() << std::flush;
     mapmatch::Matcher matcher(network, rules, parameters);
     std::vector<MapDoubt> doubts;
-    const auto matched = match::match_track(matcher, match::read_track(file, options.track_options),
-                                            {.doubts = &doubts});
+    const auto matched = match::match_track(matcher, options.track(file), {.doubts = &doubts});
     for (const MapDoubt& doubt : doubts) pool.add(doubt, file.string());
     fixes += matched.size();
     on_road += static_cast<std::size_t>(std::count_if(
@@ -78,12 +72,8 @@ void add_map_doubts(CLI::App& map, Command& command) {
       "doubts",
       "Find what drives contradict of a map: missing roads, wrong directions, forbidden turns that "
       "were driven, and shifted roads, each with its probability");
-  sub->add_option("MAP", options->map,
-                  "OpenStreetMap file, or a network file of `maploop map build`")
-      ->required();
-  sub->add_option("TRACK", options->tracks,
-                  "Tracks or logs, as for `maploop match`, but for TUM in a local frame")
-      ->required();
+  add_map_argument(*sub, *options);
+  sub->add_option("TRACK", options->tracks, "Tracks or logs, as for `maploop match`")->required();
   sub->add_option("-o,--output", options->output,
                   "Write them to this GeoJSON file, which JOSM opens, and which `maploop map build "
                   "--doubts` takes")
@@ -91,11 +81,7 @@ void add_map_doubts(CLI::App& map, Command& command) {
   sub->add_option("--min-probability", options->min_probability, "Leave out less likely ones")
       ->check(number_in(0.0, 1.0))
       ->capture_default_str();
-  sub->add_option("--sigma", options->track_options.sigma,
-                  "Metres an axis, of positions whose accuracy the track does not say")
-      ->check(positive_number())
-      ->capture_default_str();
-  sub->add_option("--set", options->set, "NAME=VALUE of a parameter of [mapmatch]");
+  add_match_input_options(*sub, *options);
   sub->callback([options, &command] { command = [options] { return find_doubts(*options); }; });
 }
 

@@ -10,28 +10,22 @@
 #include <vector>
 
 #include "mapmatch/match_history.h"
-#include "mapmatch/network_file.h"
-#include "msgs/frames.h"
 #include "tools/command/commands.h"
+#include "tools/command/match_input_options.h"
 #include "tools/command/option_checks.h"
 #include "tools/match/driven_route.h"
 #include "tools/match/match_output.h"
 #include "tools/match/match_score.h"
-#include "tools/match/parameter_settings.h"
-#include "tools/match/track_file.h"
 
 namespace maploop::tools {
 namespace {
 
 constexpr double longest_lag = 10.0;  // s; METHOD.md tells why
 
-struct MatchOptions {
-  std::filesystem::path map, track, csv, geojson, gpx, html, route, rules, labels;
+struct MatchOptions : MatchInputOptions {
+  std::filesystem::path track_file, csv, geojson, gpx, html, route, labels;
   double lag = 0.0;    // s
   bool whole = false;  // by the fixes of the longest lag
-  std::vector<double> origin, box;
-  std::vector<std::string> set;
-  match::TrackOptions track_options;
 };
 
 void print_summary(const match::MatchedTrack& track, const mapmatch::RoadNetwork& network,
@@ -71,23 +65,13 @@ void print_score(const match::MatchedTrack& track, const mapmatch::RoadNetwork& 
   std::cout << match::to_text(score);
 }
 
-int match_track(MatchOptions options) {
-  if (!options.origin.empty()) {
-    options.track_options.origin =
-        Geodetic{radians(options.origin[0]), radians(options.origin[1]), 0.0};
-  }
-  mapmatch::OsmOptions osm;
-  if (!options.box.empty())
-    osm.box = {options.box[0], options.box[1], options.box[2], options.box[3]};
-  const mapmatch::RoadNetwork network(mapmatch::open_network(options.map, osm));
-  const mapmatch::RuleBases rules =
-      mapmatch::read_rule_bases(options.rules.empty() ? mapmatch::default_rules() : options.rules);
+int match_track(const MatchOptions& options) {
+  const mapmatch::RoadNetwork network = options.network();
+  const mapmatch::RuleBases rules = options.rule_bases();
   match::MatchedTrack track;
-  track.name = options.track.filename().string();
-  track.fixes = match::read_track(options.track, options.track_options);
-  mapmatch::MatchParameters parameters;
-  match::apply_settings(options.set, parameters);
-  mapmatch::Matcher matcher(network, rules, parameters);
+  track.name = options.track_file.filename().string();
+  track.fixes = options.track(options.track_file);
+  mapmatch::Matcher matcher(network, rules, options.parameters());
   mapmatch::MatchHistory history(network);
   const double lag = options.whole ? longest_lag : options.lag;
   std::vector<double> microseconds;
@@ -118,10 +102,8 @@ void add_match(CLI::App& app, Command& command) {
                                      "Find the roads that a recorded track was driven on, fix by "
                                      "fix as if live, or by later fixes, "
                                      "too (--lag, --whole)");
-  sub->add_option("MAP", options->map,
-                  "OpenStreetMap file, or a network file of `maploop map build`")
-      ->required();
-  sub->add_option("TRACK", options->track,
+  add_map_argument(*sub, *options);
+  sub->add_option("TRACK", options->track_file,
                   "CSV with columns t, lat, lon and what else is known (sigma or cov_ee, cov_en, "
                   "cov_nn in m; speed in m/s, azimuth_deg, yaw_rate in rad/s, hdop, visual_speed, "
                   "visual_azimuth_deg; OXTS's names, "
@@ -145,24 +127,10 @@ void add_match(CLI::App& app, Command& command) {
   sub->add_flag("--whole", options->whole, "The same with the longest lag, 10 s");
   sub->add_option("--html", options->html, "Write a page with map, streets, reasons and doubts")
       ->check(writable_file());
-  sub->add_option("--sigma", options->track_options.sigma,
-                  "Metres an axis, of positions whose accuracy the track does not say")
-      ->check(positive_number())
-      ->capture_default_str();
-  sub->add_option("--origin", options->origin, "LAT,LON of a TUM track's local frame, degrees")
-      ->delimiter(',')
-      ->expected(2)
-      ->check(finite_number());
-  sub->add_option("--box", options->box, "WEST,SOUTH,EAST,NORTH in degrees: only this part of MAP")
-      ->delimiter(',')
-      ->expected(4)
-      ->check(finite_number());
-  sub->add_option("--rules", options->rules, "Folder with rule bases of your own (.fll)")
-      ->check(existing_folder());
+  add_match_input_options(*sub, *options);
   sub->add_option("--labels", options->labels,
                   "CSV of the links really driven (frame,way_id,node_a,node_b,conf; plain or .gz; "
                   "frame: number of TRACK's row, from 0): print the share that is right");
-  sub->add_option("--set", options->set, "NAME=VALUE of a parameter of [mapmatch]");
   sub->footer(
       "Examples:\n"
       "    maploop match town.osm.pbf track.gpx --html match.html  # with reasons\n"

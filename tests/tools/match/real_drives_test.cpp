@@ -137,7 +137,7 @@ TEST(RealDrives, WhatIsSaidWithHighProbabilityIsRight) {
               r.p_sum[9] / static_cast<double>(r.fixes[9]), 0.02);
 }
 
-// On drives on which no parameter of P was chosen but those for missing roads.
+// Some parameters of P were chosen on these drives (PARAMETERS.md).
 TEST(RealDrives, ProbabilitiesOfLinksAreCalibrated) {
   MAPLOOP_REQUIRE_REAL_DATA();
   static const mapmatch::RoadNetwork network(mapmatch::open_network(karlsruhe()));

@@ -1,0 +1,60 @@
+#include "tools/command/match_input_options.h"
+
+#include "mapmatch/network_file.h"
+#include "msgs/frames.h"
+#include "tools/command/option_checks.h"
+#include "tools/match/parameter_settings.h"
+
+namespace maploop::tools {
+
+mapmatch::RoadNetwork MatchInputOptions::network() const {
+  mapmatch::OsmOptions osm;
+  if (!box.empty()) osm.box = {box[0], box[1], box[2], box[3]};
+  return mapmatch::RoadNetwork(mapmatch::open_network(map, osm));
+}
+
+mapmatch::RuleBases MatchInputOptions::rule_bases() const {
+  return mapmatch::read_rule_bases(rules);
+}
+
+mapmatch::MatchParameters MatchInputOptions::parameters() const {
+  mapmatch::MatchParameters parameters;
+  match::apply_settings(set, parameters);
+  return parameters;
+}
+
+match::Track MatchInputOptions::track(const std::filesystem::path& file) const {
+  match::TrackOptions how;
+  how.sigma = sigma;
+  if (!origin.empty()) how.origin = Geodetic{radians(origin[0]), radians(origin[1]), 0.0};
+  return match::read_track(file, how);
+}
+
+void add_map_argument(CLI::App& command, MatchInputOptions& options) {
+  command
+      .add_option("MAP", options.map,
+                  "OpenStreetMap file, or a network file of `maploop map build`")
+      ->required();
+}
+
+void add_match_input_options(CLI::App& command, MatchInputOptions& options) {
+  command
+      .add_option("--sigma", options.sigma,
+                  "Metres an axis, of positions whose accuracy the track does not say")
+      ->check(positive_number())
+      ->capture_default_str();
+  command.add_option("--origin", options.origin, "LAT,LON of a TUM track's local frame, degrees")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(finite_number());
+  command
+      .add_option("--box", options.box, "WEST,SOUTH,EAST,NORTH in degrees: only this part of MAP")
+      ->delimiter(',')
+      ->expected(4)
+      ->check(finite_number());
+  command.add_option("--rules", options.rules, "Folder with rule bases of your own (.fll)")
+      ->check(existing_folder());
+  command.add_option("--set", options.set, "NAME=VALUE of a parameter of [mapmatch]");
+}
+
+}  // namespace maploop::tools
