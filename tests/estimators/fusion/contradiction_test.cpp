@@ -11,6 +11,7 @@
 
 #include "tests/estimators/fusion/filter_run.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
+#include "tests/support/drawn.h"
 
 namespace maploop::fusion {
 namespace {
@@ -67,7 +68,7 @@ TEST(LastingError, NoiseThatIsLargerThanItsCovarianceScatters) {
   std::normal_distribution<double> normal;
   LastingError honest, noisy;
   for (int i = 0; i < 1000; ++i) {
-    const Eigen::Vector2d u(normal(random), normal(random));
+    const auto u = maploop::testing::drawn<Eigen::Vector2d>([&] { return normal(random); });
     honest.add(u, start + i * milliseconds(100), memory);
     noisy.add(3.0 * u, start + i * milliseconds(100), memory);
   }

@@ -11,6 +11,7 @@
 #include "msgs/frames.h"
 #include "sensors/replay/files.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
+#include "tests/support/drawn.h"
 #include "tools/evaluate/trajectory_file.h"
 
 namespace maploop::testing {
@@ -102,7 +103,7 @@ GnssFix noisy_start(const RecordedDrive& drive, const Vector3d& velocity, unsign
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   const auto noise = [&](double sigma) {
-    return Vector3d(sigma * normal(random), sigma * normal(random), sigma * normal(random));
+    return maploop::testing::drawn<Vector3d>([&] { return sigma * normal(random); });
   };
   GnssFix fix;
   fix.stamp = fix.available = fix.velocity_stamp = drive.stamps.front();

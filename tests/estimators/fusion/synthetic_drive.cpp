@@ -5,6 +5,7 @@
 #include <random>
 
 #include "msgs/frames.h"
+#include "tests/support/drawn.h"
 
 namespace maploop::testing {
 namespace {
@@ -107,7 +108,7 @@ std::vector<RelativeMotion> SyntheticDrive::odometry(double rate, const SensorNo
   std::mt19937 random(noise.seed + 1000);
   std::normal_distribution<double> normal;
   const auto noise_vector = [&](double sigma) {
-    return Vector3d(sigma * normal(random), sigma * normal(random), sigma * normal(random));
+    return maploop::testing::drawn<Vector3d>([&] { return sigma * normal(random); });
   };
   std::vector<RelativeMotion> motions;
   for (int i = 1; i <= static_cast<int>(std::lround(duration_ * rate)); ++i) {

@@ -9,6 +9,7 @@
 #include "estimators/lidar/gicp.h"
 #include "estimators/lidar/scan_preparation.h"
 #include "tests/estimators/lidar/drive_scans.h"
+#include "tests/support/drawn.h"
 
 namespace maploop::lidar {
 namespace {
@@ -46,8 +47,9 @@ TEST(GicpFactor, MetricIsTheInverseOfTheSumOfBothCovariances) {
   std::mt19937 random(3);
   std::normal_distribution<float> normal;
   for (int i = 0; i < 50; ++i) {
-    Vector3f a(normal(random), normal(random), normal(random));
-    Vector3f b(normal(random), normal(random), normal(random));
+    const auto draw = [&] { return normal(random); };
+    auto a = maploop::testing::drawn<Vector3f>(draw);
+    auto b = maploop::testing::drawn<Vector3f>(draw);
     a.normalize();
     b.normalize();
     if (i == 0) b = a;

@@ -10,6 +10,7 @@
 #include "estimators/stereo/velocity_change.h"
 #include "tests/estimators/stereo/synthetic_scene.h"
 #include "tests/support/counted_allocations.h"
+#include "tests/support/drawn.h"
 
 namespace maploop::stereo {
 namespace {
@@ -49,13 +50,17 @@ struct Scene {
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> x(-10.0, 10.0), y(-3.0, 3.0), z(12.0, 50.0);
     std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < count; ++i) points.emplace_back(x(random), y(random), z(random));
+    for (int i = 0; i < count; ++i) {
+      const double depth = z(random), down = y(random);
+      points.emplace_back(x(random), down, depth);
+    }
+    const auto draw = [&] { return normal(random); };
     std::vector<std::vector<StereoObservation>> seen;
     for (int k = 0; k < frames; ++k) {
       auto& frame = seen.emplace_back();
       for (const Eigen::Vector3d& p : points) {
         const ImagePoint image = project(camera, true_pose(k).inverse() * p) +
-                                 noise * ImagePoint(normal(random), normal(random), normal(random));
+                                 noise * maploop::testing::drawn<ImagePoint>(draw);
         frame.push_back({image.x(), image.y(), image.x() - image.z(), image.y()});
       }
     }
@@ -68,7 +73,7 @@ struct Scene {
         tracks.push_back({static_cast<std::int64_t>(i), seen[static_cast<std::size_t>(k - 1)][i],
                           seen[static_cast<std::size_t>(k)][i]});
       Eigen::Isometry3d rough = true_pose(k);
-      rough.translation() += 0.05 * Eigen::Vector3d(normal(random), normal(random), normal(random));
+      rough.translation() += 0.05 * maploop::testing::drawn<Eigen::Vector3d>(draw);
       window.add(camera, at(k), rough, tracks, all, 0.0);
     }
   }

@@ -7,6 +7,7 @@
 
 #include "msgs/frames.h"
 #include "msgs/small_turn.h"
+#include "tests/support/drawn.h"
 #include "tools/calibrate/extrinsics/depth_edges.h"
 #include "tools/calibrate/extrinsics/edge_alignment.h"
 #include "tools/calibrate/extrinsics/ground_alignment.h"
@@ -122,7 +123,9 @@ class Alignment : public ::testing::Test {
       for (int i = 0; i < 60; ++i) {
         const double x = uniform(-5.0, 5.0);
         stereo::ImagePoint p = stereo::project(camera_, {x, ground(x), uniform(6.0, 20.0)});
-        p += Vector3d(uniform(-0.2, 0.2), uniform(-0.2, 0.2), uniform(-0.2, 0.2) - 0.3);
+        auto error = maploop::testing::drawn<Vector3d>([&] { return uniform(-0.2, 0.2); });
+        error.z() -= 0.3;
+        p += error;
         image.points.push_back(p);
       }
     }

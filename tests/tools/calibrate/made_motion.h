@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "msgs/small_turn.h"
+#include "tests/support/drawn.h"
 #include "tools/calibrate/extrinsics/rotation_stream.h"
 
 namespace maploop::extrinsics {
@@ -46,7 +47,7 @@ class MadeMotion {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> normal;
     const auto vector = [&] {
-      return Eigen::Vector3d(normal(engine), normal(engine), normal(engine));
+      return maploop::testing::drawn<Eigen::Vector3d>([&] { return normal(engine); });
     };
     std::vector<SensorMotion> motions;
     constexpr double period = 0.1;
