@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -133,30 +134,35 @@ void learn(const Trial& trial, mapmatch::RuleBases& rules) {
 // Writes the files of the folder `from` to the folder `to`, with the weights of the rules.
 void write_rules(const mapmatch::RuleBases& rules, const std::filesystem::path& from,
                  const std::filesystem::path& to) {
-  std::filesystem::create_directories(to);
   std::filesystem::copy_file(from / "along_link_visual.fll", to / "along_link_visual.fll",
                              std::filesystem::copy_options::overwrite_existing);
   for (const NamedBase& base : named_bases) {
-    std::string text = read_text(from / base.file, input_limits::settings);
-    std::size_t at = 0;
-    for (const mapmatch::FuzzyRule& rule : (rules.*base.system).rules()) {
-      at = text.find("rule:", at);
-      const std::size_t end = text.find('\n', at);
-      const std::string plain = rule.text.substr(0, rule.text.find(" with "));
-      std::string line = "rule: " + plain;
-      if (rule.weight != 1.0) line += " with " + fmt::format("{}", rule.weight);
-      text.replace(at, end - at, line);
-      at += line.size();
-    }
+    std::istringstream in(read_text(from / base.file, input_limits::settings));
     std::ofstream out(to / base.file);
-    if (!(out << text).flush())
-      throw std::runtime_error((to / base.file).string() + ": cannot be written");
+    auto rule = (rules.*base.system).rules().begin();
+    for (std::string line; std::getline(in, line);) {
+      const std::size_t key = line.find_first_not_of(" \t");
+      if (key != std::string::npos && line.compare(key, 4, "rule") == 0) {
+        line = "  rule: " + rule->text.substr(0, rule->text.find(" with "));
+        if (rule->weight != 1.0) line += " with " + fmt::format("{}", rule->weight);
+        ++rule;
+      }
+      out << line << '\n';
+    }
+    if (!out.flush()) throw std::runtime_error((to / base.file).string() + ": cannot be written");
   }
 }
 
 int rules_experiment(const RulesExperimentOptions& options) {
-  const Trial trial(options);
   mapmatch::RuleBases rules = mapmatch::read_rule_bases(options.rules);
+  if (!options.learn.empty()) {
+    std::filesystem::create_directories(options.learn);
+    if (std::filesystem::equivalent(options.rules, options.learn)) {
+      throw std::runtime_error("--learn " + options.learn.string() +
+                               ": the rules are read from there; name another folder");
+    }
+  }
+  const Trial trial(options);
   if (!options.learn.empty()) {
     learn(trial, rules);
     write_rules(rules, options.rules, options.learn);

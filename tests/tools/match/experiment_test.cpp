@@ -1,4 +1,5 @@
 // Tests `maploop experiment match` and `rules` on a short recorded drive.
+#include "mapmatch/rule_bases.h"
 #include "tests/support/command_test.h"
 
 namespace maploop::testing {
@@ -34,6 +35,15 @@ TEST_F(MatchExperiment, LearnsWeightsThatTheMatcherReads) {
       experiment("match", {"--rules", file("rules"), "--set", "paths=0", "--json", file("m.json")});
   ASSERT_EQ(matched.status, 0) << matched.error;
   EXPECT_GE(read_json(file("m.json"))["noise-free, 1 Hz"]["ours"]["all"]["right"], 0.9);
+}
+
+TEST_F(MatchExperiment, WeightsAreNotWrittenOverTheRules) {
+  std::filesystem::create_directories(file("rules"));
+  std::filesystem::copy(mapmatch::default_rules(), file("rules"));
+  const ProcessResult result =
+      experiment("rules", {"--rules", file("rules"), "--learn", file("rules")});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.error, HasSubstr("name another folder"));
 }
 
 TEST_F(MatchExperiment, RulesThatAreNotThereAreNamed) {
