@@ -69,9 +69,10 @@ struct Scene {
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
     for (int k = 1; k < frames; ++k) {
       std::vector<StereoTrack> tracks;
-      for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t i = 0; i < points.size(); ++i) {
         tracks.push_back({static_cast<std::int64_t>(i), seen[static_cast<std::size_t>(k - 1)][i],
                           seen[static_cast<std::size_t>(k)][i]});
+      }
       Eigen::Isometry3d rough = true_pose(k);
       rough.translation() += 0.05 * maploop::testing::drawn<Eigen::Vector3d>(draw);
       window.add(camera, at(k), rough, tracks, all, 0.0);
@@ -86,7 +87,7 @@ TEST(VelocityChange, JacobiansAgreeWithNumericalDerivatives) {
   const std::array<double, 2> seconds{0.1, 0.13};
   const VelocityChange change = velocity_change(poses, seconds);
   constexpr double difference_step = 1e-6;
-  for (std::size_t pose = 0; pose < 3; ++pose)
+  for (std::size_t pose = 0; pose < 3; ++pose) {
     for (int i = 0; i < 6; ++i) {
       auto moved = [&](double by) {
         auto p = poses;
@@ -97,6 +98,7 @@ TEST(VelocityChange, JacobiansAgreeWithNumericalDerivatives) {
           (moved(difference_step) - moved(-difference_step)) / (2.0 * difference_step);
       EXPECT_LT((change.by_pose[pose].col(i) - numerical).norm(), 1e-5) << pose << ", " << i;
     }
+  }
 }
 
 TEST(View, JacobiansAgreeWithNumericalDerivatives) {
@@ -129,11 +131,12 @@ TEST(BundleAdjustment, FindsThePosesOfAPerfectSceneExactly) {
   Scene scene(6, 60, 0.0);
   scene.parameters.window_iterations = 20;
   ASSERT_TRUE(BundleAdjustment(scene.camera, scene.parameters).adjust(&scene.window));
-  for (int k = 1; k < 6; ++k)
+  for (int k = 1; k < 6; ++k) {
     EXPECT_LT(pose_error(scene.window.poses[static_cast<std::size_t>(k)].T_world_cam, true_pose(k))
                   .norm(),
               1e-4)
         << "pose " << k;
+  }
 }
 
 // These are the same residuals, written independently and differentiated by Ceres.
@@ -207,7 +210,7 @@ TEST(BundleAdjustment, FindsTheMinimumThatCeresFinds) {
 
   ceres::Problem problem;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t k = 0; k < q.size(); ++k)
+    for (std::size_t k = 0; k < q.size(); ++k) {
       problem.AddResidualBlock(
           new ceres::AutoDiffCostFunction<Reprojection, 3, 4, 3, 3, 1>(new Reprojection{
               scene.camera,
@@ -215,6 +218,7 @@ TEST(BundleAdjustment, FindsTheMinimumThatCeresFinds) {
               {1.0 / p.sigma_track, 1.0 / p.sigma_track, 1.0 / p.sigma_disparity}}),
           new ceres::HuberLoss(p.huber), q[k].coeffs().data(), t[k].data(), points[i].data(),
           &match_error[i]);
+    }
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<SmallMatchError, 1, 1>(
                                  new SmallMatchError{1.0 / p.sigma_match}),
                              nullptr, &match_error[i]);
@@ -222,11 +226,12 @@ TEST(BundleAdjustment, FindsTheMinimumThatCeresFinds) {
   Vector6 weight;
   weight << Eigen::Vector3d::Constant(1.0 / (p.sigma_acceleration * frame_period)),
       Eigen::Vector3d::Constant(1.0 / (p.sigma_turn_acceleration * frame_period));
-  for (std::size_t k = 0; k + 2 < q.size(); ++k)
+  for (std::size_t k = 0; k + 2 < q.size(); ++k) {
     problem.AddResidualBlock(
         new ceres::AutoDiffCostFunction<Smoothness, 6, 4, 3, 4, 3, 4, 3>(new Smoothness{weight}),
         nullptr, q[k].coeffs().data(), t[k].data(), q[k + 1].coeffs().data(), t[k + 1].data(),
         q[k + 2].coeffs().data(), t[k + 2].data());
+  }
   for (auto& quaternion : q)
     problem.SetManifold(quaternion.coeffs().data(), new ceres::EigenQuaternionManifold);
   problem.SetParameterBlockConstant(q[0].coeffs().data());
