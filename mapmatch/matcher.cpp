@@ -204,12 +204,9 @@ void Matcher::follow(const MatchCandidate* chosen, double interval) {
   const bool established =
       result_.phase == MatchPhase::along_link || result_.phase == MatchPhase::at_junction;
   if (!chosen) {
-    result_.phase = parameters_.paths && established               ? MatchPhase::off_road
-                    : parameters_.paths && paths_.off_road() > 0.5 ? MatchPhase::off_road
-                                                                   : MatchPhase::initial;
-    last_.there = false;
-    has_winner_ = false;
-    agreed_ = 0.0;
+    start_again();
+    if (parameters_.paths && (established || paths_.off_road() > 0.5))
+      result_.phase = MatchPhase::off_road;
     return;
   }
   if (established) {

@@ -3,7 +3,6 @@
 #include "mapmatch/network_file.h"
 #include "msgs/frames.h"
 #include "tools/command/option_checks.h"
-#include "tools/match/parameter_settings.h"
 
 namespace maploop::tools {
 
@@ -11,16 +10,6 @@ mapmatch::RoadNetwork MatchInputOptions::network() const {
   mapmatch::OsmOptions osm;
   if (!box.empty()) osm.box = {box[0], box[1], box[2], box[3]};
   return mapmatch::RoadNetwork(mapmatch::open_network(map, osm));
-}
-
-mapmatch::RuleBases MatchInputOptions::rule_bases() const {
-  return mapmatch::read_rule_bases(rules);
-}
-
-mapmatch::MatchParameters MatchInputOptions::parameters() const {
-  mapmatch::MatchParameters parameters;
-  match::apply_settings(set, parameters);
-  return parameters;
 }
 
 match::Track MatchInputOptions::track(const std::filesystem::path& file) const {
@@ -52,9 +41,7 @@ void add_match_input_options(CLI::App& command, MatchInputOptions& options) {
       ->delimiter(',')
       ->expected(4)
       ->check(finite_number());
-  command.add_option("--rules", options.rules, "Folder with rule bases of your own (.fll)")
-      ->check(existing_folder());
-  command.add_option("--set", options.set, "NAME=VALUE of a parameter of [mapmatch]");
+  add_matcher_options(command, options);
 }
 
 }  // namespace maploop::tools

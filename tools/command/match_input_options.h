@@ -1,29 +1,23 @@
-// The options of commands that match tracks to a map: the map, how tracks are read, the rules and
-// the parameters.
+// The options of commands that match tracks to a map: those of the matcher, and how map and tracks
+// are read.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <string>
 #include <vector>
 
-#include "mapmatch/match_parameters.h"
 #include "mapmatch/road_network.h"
-#include "mapmatch/rule_bases.h"
+#include "tools/command/matcher_options.h"
 #include "tools/match/track_file.h"
 
 namespace maploop::tools {
 
-struct MatchInputOptions {
-  std::filesystem::path map, rules = mapmatch::default_rules();
-  std::vector<double> origin, box;  // degrees
-  std::vector<std::string> set;
+struct MatchInputOptions : MatcherOptions {
+  std::vector<double> origin, box;             // degrees
   double sigma = match::TrackOptions{}.sigma;  // m
 
-  // These throw std::runtime_error naming the file or the setting.
+  // These throw std::runtime_error naming the file.
   mapmatch::RoadNetwork network() const;
-  mapmatch::RuleBases rule_bases() const;
-  mapmatch::MatchParameters parameters() const;
   match::Track track(const std::filesystem::path& file) const;
 };
 

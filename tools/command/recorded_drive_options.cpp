@@ -13,7 +13,7 @@ void add_recorded_drive_options(CLI::App& command, RecordedDriveOptions& options
   command.add_option("--seeds", options.seeds, "Realizations of each noise")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command.add_option("--set", options.set, "NAME=VALUE of a parameter of [mapmatch]");
+  add_matcher_options(command, options);
 }
 
 }  // namespace maploop::tools

@@ -1,4 +1,4 @@
-// Which recorded drives an experiment on map matching takes, and with which parameters.
+// The options of experiments on map matching: those of the matcher, and which recorded drives.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "tools/command/matcher_options.h"
+
 namespace maploop::tools {
 
-struct RecordedDriveOptions {
-  std::filesystem::path map, data;
+struct RecordedDriveOptions : MatcherOptions {
+  std::filesystem::path data;
   std::vector<std::string> sequences{"00", "01", "02", "03", "04", "06", "08", "10"};
-  std::vector<std::string> set;
   int seeds = 3;
 };
 

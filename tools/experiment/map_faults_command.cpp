@@ -16,7 +16,6 @@
 #include "tools/experiment/experiments.h"
 #include "tools/experiment/table.h"
 #include "tools/match/map_faults.h"
-#include "tools/match/parameter_settings.h"
 
 namespace maploop::tools {
 namespace {
@@ -129,9 +128,8 @@ std::vector<WrongMap> wrong_maps(const mapmatch::MapExtract& map,
 int fault_experiment(const RecordedDriveOptions& options) {
   const mapmatch::MapExtract map = mapmatch::read_osm(options.map);
   const mapmatch::NetworkData network = mapmatch::build_network(map);
-  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
-  mapmatch::MatchParameters parameters;
-  match::apply_settings(options.set, parameters);
+  const mapmatch::RuleBases rules = options.rule_bases();
+  const mapmatch::MatchParameters parameters = options.parameters();
   const auto conditions = match::input_conditions();
   experiments::Groups<std::vector<FaultScores>> scores;  // of each fault, for each condition
   for (const std::string& name : options.sequences) {

@@ -16,14 +16,12 @@
 #include "tools/experiment/experiments.h"
 #include "tools/experiment/table.h"
 #include "tools/match/baseline_matchers.h"
-#include "tools/match/parameter_settings.h"
 #include "tools/match/recorded_drives.h"
 
 namespace maploop::tools {
 namespace {
 
 struct MatchExperimentOptions : RecordedDriveOptions {
-  std::filesystem::path rules = mapmatch::default_rules();
   std::filesystem::path json;
   double beta = 5.0;  // m
   bool each = false;
@@ -105,6 +103,7 @@ std::vector<Case> run_all(const MatchExperimentOptions& options,
   const std::vector<match::InputCondition> conditions = match::input_conditions();
   std::vector<std::vector<Case>> drives(conditions.size());
   std::vector<Case> pooled;
+  pooled.reserve(conditions.size());
   for (const match::InputCondition& condition : conditions)
     pooled.push_back({condition.name, std::vector<Scores>(all.size())});
   for (const std::string& name : options.sequences) {
@@ -144,10 +143,8 @@ experiments::Table table_of(const char* title, const std::vector<NamedMatcher>& 
 
 int match_experiment(const MatchExperimentOptions& options) {
   const mapmatch::RoadNetwork network(mapmatch::open_network(options.map));
-  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(options.rules);
-  mapmatch::MatchParameters parameters;
-  match::apply_settings(options.set, parameters);
-  const auto all = matchers(network, rules, parameters, options.beta);
+  const mapmatch::RuleBases rules = options.rule_bases();
+  const auto all = matchers(network, rules, options.parameters(), options.beta);
   const std::vector<Case> cases = run_all(options, network, all);
   using experiments::number;
   std::cout << as_text(table_of("All fixes: % on the right way", all, cases, [](const Scores& s) {
@@ -177,12 +174,9 @@ void add_match_experiment(CLI::App& experiment, Command& command) {
   CLI::App* sub = experiment.add_subcommand(
       "match",
       "Map matching at once, 3 and 10 s later and with the rules alone, against labels of the "
-      "links "
-      "driven; beside the nearest segment, topological weights, the error ellipse and a hidden "
-      "Markov model. Without noise, with white and with Gauss-Markov noise, at 1 and 10 Hz");
+      "links driven; beside the nearest segment, topological weights, the error ellipse and a "
+      "hidden Markov model. Without noise, with white and with Gauss-Markov noise, at 1 and 10 Hz");
   add_recorded_drive_options(*sub, *options, "OpenStreetMap file, or a network file");
-  sub->add_option("--rules", options->rules, "Folder with rule bases of your own (.fll)")
-      ->check(existing_folder());
   sub->add_option(
          "--beta", options->beta,
          "Of the hidden Markov model: mean difference of driven distance and straight line, "

@@ -13,18 +13,15 @@
 #include "mapmatch/network_file.h"
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
-#include "tools/command/option_checks.h"
 #include "tools/command/recorded_drive_options.h"
 #include "tools/experiment/experiments.h"
 #include "tools/experiment/table.h"
-#include "tools/match/parameter_settings.h"
 #include "tools/match/recorded_drives.h"
 
 namespace maploop::tools {
 namespace {
 
 struct RulesExperimentOptions : RecordedDriveOptions {
-  std::filesystem::path rules = mapmatch::default_rules();
   std::filesystem::path learn;
 };
 
@@ -43,8 +40,7 @@ constexpr std::array named_bases{
 class Trial {
  public:
   explicit Trial(const RulesExperimentOptions& options)
-      : network_(mapmatch::open_network(options.map)) {
-    match::apply_settings(options.set, parameters_);
+      : network_(mapmatch::open_network(options.map)), parameters_(options.parameters()) {
     const std::vector<match::InputCondition> conditions = match::input_conditions();
     tracks_.resize(conditions.size());
     drives_.reserve(options.sequences.size());
@@ -154,7 +150,7 @@ void write_rules(const mapmatch::RuleBases& rules, const std::filesystem::path& 
 }
 
 int rules_experiment(const RulesExperimentOptions& options) {
-  mapmatch::RuleBases rules = mapmatch::read_rule_bases(options.rules);
+  mapmatch::RuleBases rules = options.rule_bases();
   if (!options.learn.empty()) {
     std::filesystem::create_directories(options.learn);
     if (std::filesystem::equivalent(options.rules, options.learn)) {
@@ -191,13 +187,11 @@ int rules_experiment(const RulesExperimentOptions& options) {
 
 void add_rules_experiment(CLI::App& experiment, Command& command) {
   auto options = std::make_shared<RulesExperimentOptions>();
-  CLI::App* sub = experiment.add_subcommand("rules",
-                                            "What each fuzzy rule changes in map matching, with "
-                                            "the rules alone and beside the paths; can "
-                                            "learn the weights of the rules");
+  CLI::App* sub = experiment.add_subcommand(
+      "rules",
+      "What each fuzzy rule changes in map matching, with the rules alone and beside the paths; "
+      "can learn the weights of the rules");
   add_recorded_drive_options(*sub, *options, "OpenStreetMap file, or a network file");
-  sub->add_option("--rules", options->rules, "Folder with rule bases of your own (.fll)")
-      ->check(existing_folder());
   sub->add_option("--learn", options->learn,
                   "Choose the weights by these drives, and write the rule bases to this folder");
   sub->callback(

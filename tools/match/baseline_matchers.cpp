@@ -81,19 +81,18 @@ std::vector<MatchedFix> topological_weights(const RoadNetwork& network, const Tr
   std::vector<MatchedFix> matched;
   Eigen::Vector2d before = Eigen::Vector2d::Zero();
   double azimuth = std::nan("");
-  std::optional<std::uint32_t> last;
+  std::optional<DirectedLink> last;
   for (const mapmatch::VehicleFix& fix : track) {
     const Eigen::Vector2d place = network.to_local(fix.position);
     const Eigen::Vector2d line = place - before;
     if (!matched.empty() && line.norm() >= least_line) azimuth = std::atan2(line.x(), line.y());
     find_near_links(network, place, region, near);
     const auto meets_last = [&](const NearLink& n) {
-      return last && meet(network, n.link.link, *last);
+      return last && meet(network, n.link.link, last->link);
     };
     const bool any = std::any_of(near.all().begin(), near.all().end(), meets_last);
     MatchedFix best;
     double best_weight = -1e9;
-    std::optional<std::uint32_t> chosen;
     for (const NearLink& n : near.all()) {
       if (any && !meets_last(n)) continue;
       const DirectedLink link = directed(network, n, azimuth);
@@ -110,10 +109,9 @@ std::vector<MatchedFix> topological_weights(const RoadNetwork& network, const Tr
       if (weight <= best_weight) continue;
       best_weight = weight;
       best = on_segment(network, link, n.point.vertex, 1.0);
-      chosen = link.link;
     }
     matched.push_back(best);
-    last = chosen;
+    last = best.link;
     before = place;
   }
   return matched;
@@ -122,28 +120,20 @@ std::vector<MatchedFix> topological_weights(const RoadNetwork& network, const Tr
 std::vector<MatchedFix> probabilistic_ellipse(const RoadNetwork& network, const Track& track) {
   mapmatch::NearLinks near;
   std::vector<MatchedFix> matched;
-  std::optional<std::uint32_t> last;
+  std::optional<DirectedLink> last;
   for (const mapmatch::VehicleFix& fix : track) {
     find_near_links(network, network.to_local(fix.position),
                     mapmatch::ErrorEllipse(fix.covariance, ellipse_margin), near);
-    MatchedFix best, best_meeting;
-    std::optional<std::uint32_t> nearest, nearest_meeting;
+    MatchedFix best;
     for (const NearLink& n : near.all()) {  // the nearest comes first
       const DirectedLink link = directed(network, n, fix.azimuth);
       if (!fits(fix.azimuth, azimuth_of(n, link))) continue;
-      const MatchedFix here = on_segment(network, link, n.point.vertex, 1.0);
-      if (!nearest) {
-        nearest = link.link;
-        best = here;
-      }
-      if (last && meet(network, link.link, *last)) {
-        nearest_meeting = link.link;
-        best_meeting = here;
-        break;
-      }
+      const bool meets_last = last && meet(network, link.link, last->link);
+      if (!best.link || meets_last) best = on_segment(network, link, n.point.vertex, 1.0);
+      if (meets_last) break;
     }
-    matched.push_back(nearest_meeting ? best_meeting : best);
-    last = nearest_meeting ? nearest_meeting : nearest;
+    matched.push_back(best);
+    last = best.link;
   }
   return matched;
 }

@@ -105,13 +105,17 @@ class Trellis {
   void reach(const Column& before, Column& now) {
     const double straight = (now.place - before.place).norm();
     const double limit = straight + longest_detour;
+    std::map<std::uint32_t, Distances> known;  // by the junction that they are from
+    const auto distances = [&](std::uint32_t junction) -> const Distances& {
+      return known.try_emplace(junction, network_, junction, limit).first->second;
+    };
     for (std::size_t i = 0; i < before.states.size(); ++i) {
       const State& from = before.states[i];
       if (!(from.score > -infinite)) continue;
       const DirectedLink link = from.near.link;
       const double length = network_.link(link.link).length;
-      const Distances ahead(network_, network_.end_junction(link), limit);
-      const Distances behind(network_, network_.start_junction(link), limit);
+      const Distances& ahead = distances(network_.end_junction(link));
+      const Distances& behind = distances(network_.start_junction(link));
       for (State& to : now.states) {
         double route = infinite;
         if (to.near.link.link == link.link) route = std::abs(to.near.along - from.near.along);
