@@ -64,7 +64,8 @@ Feedback::Line Feedback::line_beside(DirectedLink link, const Eigen::Vector2d& p
                                        static_cast<std::uint32_t>(segment));
   line.half_width = half_width(road);
   if (road.forward && road.backward && !parameters_.hard_reset)
-    line.lane = parameters_.lane_share * 0.5 * line.half_width;
+    line.lane =
+        (network_->left_hand_traffic() ? -0.5 : 0.5) * parameters_.lane_share * line.half_width;
   return line;
 }
 

@@ -51,9 +51,9 @@ ParameterTable<FeedbackParameters> parameter_table(const FeedbackParameters&) {
        "Standard deviation of the line that is independent from feedback to feedback."},
       {"map_sigma", &P::map_sigma, 0.0, 1000.0, "m", expert,
        "Standard deviation of the line that is constant along a road."},
-      {"lane_share", &P::lane_share, -1.0, 1.0, "1", usual,
+      {"lane_share", &P::lane_share, 0.0, 1.0, "1", usual,
        "Place of a vehicle on average between the centre line of a two-way road (0) and the middle "
-       "of the right lane (1). Negative where traffic keeps left; 0: not known.",
+       "of its own lane (1), on the side of [map] side_of_road. 0: not known.",
        lane_share_choice},
       {"azimuth_sigma", &P::azimuth_sigma, above_zero, pi, "rad", expert,
        "Standard deviation of the azimuth of the vehicle in its lane."},

@@ -33,7 +33,7 @@ struct FeedbackParameters {
   double azimuth_spacing = 25.0;  // m
   double cross_sigma = 1.0;       // m
   double map_sigma = 1.5;         // m
-  double lane_share = 0.4;        // 0: centre line; 1: middle of the right lane; < 0: left
+  double lane_share = 0.4;        // 0: centre line; 1: middle of its own lane
   double azimuth_sigma = 0.052;   // rad (3 deg)
   double bend_sigma = 0.105;      // rad (6 deg)
   double straight = 0.07;         // rad (4 deg)

@@ -11,9 +11,10 @@ struct MatchParameters {
   double link_memory = 0.1;     // share of the map's error that persists behind a junction
   double azimuth_noise = 0.14;  // rad
   double wrong_way = 5.0;       // -ln P of driving against a one-way street
-  double banned_turn = 3.0;     // -ln P of a banned turn
-  double minor_road = 1.0;      // -ln P of a service way, a track or a road that is not public
-  double turn_round = 4.0;      // -ln P of a U-turn
+  double doubted_way = 0.7;  // -ln P of each direction of a one-way street that the map contradicts
+  double banned_turn = 3.0;  // -ln P of a banned turn
+  double minor_road = 1.0;   // -ln P of a service way, a track or a road that is not public
+  double turn_round = 4.0;   // -ln P of a U-turn
 
   // --- The fixes' errors
   double correlation_time = 30.0;  // s

@@ -34,6 +34,9 @@ ParameterTable<MatchParameters> parameter_table(const MatchParameters&) {
        "bends."},
       {"wrong_way", &P::wrong_way, 0.0, any_weight, "nat", expert,
        "Cost (-ln P) of driving against a one-way street."},
+      {"doubted_way", &P::doubted_way, 0.0, any_weight, "nat", expert,
+       "Cost (-ln P) of each direction of a one-way street whose direction the map itself "
+       "contradicts (ln 2)."},
       {"banned_turn", &P::banned_turn, 0.0, any_weight, "nat", expert,
        "Cost (-ln P) of a banned turn."},
       {"minor_road", &P::minor_road, 0.0, any_weight, "nat", expert,

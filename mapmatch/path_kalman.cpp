@@ -189,7 +189,8 @@ void PathKalman::judge_offset(PathHypothesis& h, const PathPoint& best,
   // A hypothesis far ahead of or behind the fix has lost the vehicle.
   const double along = squared(u.dot(beside)) / (u.dot(all * u) + h.covariance(0, 0));
   if (along > lost) h.offset_misfit += along;
-  if (!network_->allowed(best.link)) h.offset_misfit += parameters_->wrong_way_misfit;
+  if (!network_->allowed(best.link) && !network_->doubted(best.link.link))
+    h.offset_misfit += parameters_->wrong_way_misfit;
   // An offset that is attributed to the map's error costs weight as long as it lasts.
   h.log_weight -=
       parameters_->misfit_rate * 0.5 * h.offset_misfit * std::min(e.motion.interval, 1.0);

@@ -37,9 +37,13 @@ double LinkPoint::azimuth() const {
   return std::atan2(direction.x(), direction.y());
 }
 
-RoadNetwork::RoadNetwork(NetworkData data) : data_(std::move(data)), frame_(data_.origin) {
+RoadNetwork::RoadNetwork(NetworkData data, RoadSide traffic)
+    : data_(std::move(data)), frame_(data_.origin) {
   check();
   index_ = index_of(data_);
+  one_way_checks_ = check_one_ways(*this);
+  left_hand_traffic_ =
+      traffic == RoadSide::by_map ? one_way_checks_.left_hand_traffic() : traffic == RoadSide::left;
 }
 
 void RoadNetwork::check() const {

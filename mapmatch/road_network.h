@@ -12,10 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "mapmatch/one_way_check.h"
 #include "mapmatch/road.h"
 #include "mapmatch/segment_index.h"
 #include "msgs/local_frame.h"
 #include "msgs/map_match.h"
+#include "msgs/road_side.h"
 
 namespace maploop::mapmatch {
 
@@ -109,7 +111,7 @@ class RoadNetwork {
  public:
   // Throws std::invalid_argument if the data are inconsistent (an index out of range, a link
   // without length, positions that are not finite).
-  explicit RoadNetwork(NetworkData data);
+  explicit RoadNetwork(NetworkData data, RoadSide traffic = RoadSide::by_map);
 
   // Returns what the network was built from.
   const NetworkData& data() const { return data_; }
@@ -142,6 +144,14 @@ class RoadNetwork {
   bool allowed(DirectedLink d) const {
     return d.forward ? link(d.link).forward : link(d.link).backward;
   }
+  // Returns what the map shows of the directions of its one-way links.
+  const OneWayChecks& one_way_checks() const { return one_way_checks_; }
+  // Returns whether traffic keeps to the left.
+  bool left_hand_traffic() const { return left_hand_traffic_; }
+  // Returns whether the map contradicts the direction of a one-way link.
+  bool doubted(std::uint32_t link) const {
+    return one_way_checks_.of_link[link].contradicts(left_hand_traffic_);
+  }
   // Returns whether no restriction of the map bans this turn. It does not matter whether the links
   // meet, or may be driven in this direction.
   bool allowed_turn(DirectedLink from, DirectedLink to) const;
@@ -169,6 +179,8 @@ class RoadNetwork {
   NetworkData data_;
   LocalFrame frame_;
   SegmentIndex index_;
+  OneWayChecks one_way_checks_;
+  bool left_hand_traffic_ = false;
 };
 
 }  // namespace maploop::mapmatch

@@ -14,6 +14,7 @@
 
 #include "msgs/calibration.h"
 #include "msgs/parameter.h"
+#include "msgs/road_side.h"
 
 namespace maploop {
 
@@ -35,16 +36,10 @@ struct SensorTime {
   double delay = 0.0, delay_sigma = 0.1;  // s, from the measurement to its stamp
 };
 
-// Names the side of the road on which traffic keeps.
-enum class RoadSide : std::uint8_t { right, left };
-constexpr std::array<std::string_view, 2> names_of(RoadSide) {
-  return {"right", "left"};
-}
-
 // Describes the car without its sensors; the origin is the body's.
 struct CarDescription {
-  std::string name;                         // what --state keeps of one car is not used on another
-  RoadSide side_of_road = RoadSide::right;  // on which traffic keeps
+  std::string name;                          // what --state keeps of one car is not used on another
+  RoadSide side_of_road = RoadSide::by_map;  // on which traffic keeps
   double rear_axle_distance = 0.0, rear_axle_distance_sigma = 1.0;  // m, axle to origin, forward
   double rear_axle_height = 0.0, rear_axle_height_sigma = 1.0;      // m, axle above the origin
   double wheel_radius = 0.32, wheel_radius_sigma = 0.05;            // m, rear wheel under load

@@ -106,6 +106,7 @@ void describe_kitti_car(const VehicleCalibration& calibration, VehicleDescriptio
   if (calibration.beam_elevation != kitti.beam_elevation) return;
   description.car.rear_slip = 0.0085;
   description.car.rear_slip_sigma = 0.0015;
+  description.car.side_of_road = RoadSide::right;
   description.lidar.model = "HDL-64E";
   description.lidar.beam_elevation_sigma = 0.0005;
   description.imu.time = {0.06, 0.005};

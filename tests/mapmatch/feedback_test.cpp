@@ -92,8 +92,9 @@ TEST(Feedback, OnARoadForBothDirectionsItIsToTheRight) {
   EXPECT_NEAR(off(eastward, parameters), -lane, 0.02);
   EXPECT_NEAR(off(westward, parameters), lane, 0.02);
   EXPECT_NEAR(fed(feedbacks(network, eastward)).back().cross_track, 1.5 - lane, 0.05);
-  parameters.lane_share = -0.4;  // left-hand traffic
-  EXPECT_NEAR(off(eastward, parameters), lane, 0.02);
+  const RoadNetwork left(tee().network().data(), RoadSide::left);
+  EXPECT_NEAR(left.to_local(fed(feedbacks(left, eastward, parameters)).back().point).y() - middle,
+              lane, 0.02);
   parameters = {};
   parameters.hard_reset = true;  // onto the line
   EXPECT_NEAR(off(eastward, parameters), 0.0, 0.02);

@@ -3,13 +3,15 @@
 #include "mapmatch/network_file.h"
 #include "msgs/frames.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/options.h"
 
 namespace maploop::tools {
 
 mapmatch::RoadNetwork MatchInputOptions::network() const {
   mapmatch::OsmOptions osm;
   if (!box.empty()) osm.box = {box[0], box[1], box[2], box[3]};
-  return mapmatch::RoadNetwork(mapmatch::open_network(map, osm));
+  return mapmatch::RoadNetwork(mapmatch::open_network(map, osm),
+                               side_of_road.value_or(RoadSide::by_map));
 }
 
 match::Track MatchInputOptions::track(const std::filesystem::path& file) const {
@@ -41,6 +43,8 @@ void add_match_input_options(CLI::App& command, MatchInputOptions& options) {
       ->delimiter(',')
       ->expected(4)
       ->check(finite_number());
+  add_choice(&command, "--side-of-road", options.side_of_road,
+             "Side on which traffic keeps (by-map: that of most opposite carriageways of MAP)");
   add_matcher_options(command, options);
 }
 

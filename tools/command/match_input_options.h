@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "mapmatch/road_network.h"
@@ -14,6 +15,7 @@ namespace maploop::tools {
 
 struct MatchInputOptions : MatcherOptions {
   std::vector<double> origin, box;             // degrees
+  std::optional<RoadSide> side_of_road;        // on which traffic keeps
   double sigma = match::TrackOptions{}.sigma;  // m
 
   // These throw std::runtime_error naming the file.

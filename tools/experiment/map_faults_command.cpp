@@ -90,7 +90,7 @@ std::vector<WrongMap> wrong_maps(const mapmatch::MapExtract& map,
                                  int seeds) {
   std::vector<WrongMap> maps;
   const auto add = [&](const char* fault, mapmatch::NetworkData data) -> WrongMap& {
-    maps.push_back({fault, mapmatch::RoadNetwork(std::move(data))});
+    maps.push_back({fault, mapmatch::RoadNetwork(std::move(data), RoadSide::right)});
     return maps.back();
   };
   add("as it is", network);

@@ -73,6 +73,10 @@ nlohmann::json describe(const mapmatch::RoadNetwork& network) {
     length += link.length;
     if (link.forward != link.backward) ++oneway;
   }
+  const mapmatch::OneWayChecks& checks = network.one_way_checks();
+  std::size_t doubted = 0;
+  for (std::uint32_t link = 0; link < network.size(); ++link)
+    doubted += network.doubted(link) ? 1 : 0;
   for (const mapmatch::Road& road : data.roads) {
     ++classes[std::string(to_string(road.road_class))];
     bridges += road.bridge ? 1 : 0;
@@ -81,6 +85,9 @@ nlohmann::json describe(const mapmatch::RoadNetwork& network) {
   }
   return {{"links", data.links.size()},
           {"one_way_links", oneway},
+          {"opposite_carriageways_to_left", checks.to_left},
+          {"opposite_carriageways_to_right", checks.to_right},
+          {"doubted_directions", doubted},
           {"junctions", data.junctions.size()},
           {"vertices", data.vertices.size()},
           {"ways", data.roads.size()},
@@ -100,6 +107,11 @@ void print(const nlohmann::json& info, double milliseconds) {
             << info["junctions"] << " junctions, " << info["banned_turns"] << " banned turns, "
             << info["bridges"] << " bridges, " << info["tunnels"] << " tunnels, "
             << info["roundabouts"] << " roundabouts\n";
+  std::cout << "links with an opposite carriageway to the left: "
+            << info["opposite_carriageways_to_left"]
+            << ", to the right: " << info["opposite_carriageways_to_right"]
+            << "; one-way links whose direction the map contradicts: " << info["doubted_directions"]
+            << '\n';
   for (const auto& [name, count] : info["ways_by_class"].items())
     std::cout << "  " << name << ": " << count << '\n';
   for (const auto& warning : info["warnings"])

@@ -14,8 +14,8 @@ std::shared_ptr<const vehicle::RoadMap> load_road_map(const vehicle::MapParamete
   if (!fault) return map;
   if (map == nullptr) throw std::runtime_error("--map-fault needs a map: --map FILE");
   auto wrong = match::with_fault(mapmatch::read_osm(parameters.file), driven, *fault);
-  return std::make_shared<const vehicle::RoadMap>(
-      vehicle::RoadMap{mapmatch::RoadNetwork(std::move(wrong)), map->rules});
+  return std::make_shared<const vehicle::RoadMap>(vehicle::RoadMap{
+      mapmatch::RoadNetwork(std::move(wrong), parameters.side_of_road), map->rules});
 }
 
 }  // namespace maploop::tools

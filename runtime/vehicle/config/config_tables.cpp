@@ -173,6 +173,10 @@ ParameterTable<MapParameters> parameter_table(const MapParameters&) {
       {"mode", one_of<&P::mode>, usual,
        "\"none\": no matching; \"loose\": matched, nothing is fed back; \"tight\": the road "
        "corrects the filter; \"hard-reset\": position and azimuth become the matched ones."},
+      {"side_of_road", one_of<&P::side_of_road>, usual,
+       "Side on which traffic keeps, if it is not that of [vehicle]. A one-way street whose "
+       "opposite "
+       "carriageway is on the wrong side may be driven both ways, as its direction is doubtful."},
       {"rules", &P::rules, usual,
        "Folder of fuzzy rule bases (.fll); the path starts from this file's folder. Empty: those "
        "that are shipped."},

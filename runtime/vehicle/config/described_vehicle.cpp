@@ -104,8 +104,7 @@ void describe_car(VehicleConfig& config, const VehicleCalibration& recorded) {
          seen == neutral.camera.time.delay_sigma ? sigma : std::hypot(sigma, seen));
   }
   if (config.is_given("vehicle.imu", "delay")) config.replay.imu_delay = d.imu.time.delay;
-  double& lane = config.feedback.lane_share;
-  if (d.car.side_of_road == RoadSide::left) take("feedback", "lane_share", lane, -std::abs(lane));
+  if (!config.is_given("map", "side_of_road")) config.map.side_of_road = d.car.side_of_road;
 }
 
 }  // namespace maploop::vehicle

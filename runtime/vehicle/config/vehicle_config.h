@@ -71,6 +71,7 @@ constexpr std::array<std::string_view, 4> names_of(MapMode) {
 struct MapParameters {
   std::string file;
   MapMode mode = MapMode::loose;
+  RoadSide side_of_road = RoadSide::by_map;  // that of [vehicle] if it is not given
   std::string rules;
 };
 

@@ -120,7 +120,7 @@ TEST(VehicleConfig, NoCarIsADefaultAndTheFileKnowsBetterThanTheRecording) {
 
 TEST(VehicleConfig, TheDescriptionOfTheVehicleReachesWhatUsesIt) {
   const VehicleConfig config = load_text(
-      "[feedback]\nlane_share = 0.3\n[vehicle]\nside_of_road = \"left\"\n"
+      "[vehicle]\nside_of_road = \"left\"\n"
       "rear_axle_distance = 1.2\n[vehicle.lidar]\nbeam_elevation = 0.002\n[vehicle.antenna]\n"
       "forward = 0.5\nleft = -0.1\nup = 1.5\n[vehicle.imu]\ndelay = 0.01\n");
   EXPECT_EQ(config.fusion.rear_axle_distance, 1.2);
@@ -129,8 +129,11 @@ TEST(VehicleConfig, TheDescriptionOfTheVehicleReachesWhatUsesIt) {
   EXPECT_EQ(config.fusion.gnss_lever_left, -0.1);
   EXPECT_EQ(config.fusion.gnss_lever_up, 1.5);
   EXPECT_EQ(config.replay.imu_delay, 0.01);
-  EXPECT_EQ(config.feedback.lane_share, 0.3) << "its own key holds";
-  EXPECT_EQ(load_text("[vehicle]\nside_of_road = \"left\"\n").feedback.lane_share, -0.4);
+  EXPECT_EQ(config.map.side_of_road, RoadSide::left);
+  EXPECT_EQ(load_text("[map]\nside_of_road = \"right\"\n[vehicle]\nside_of_road = \"left\"\n")
+                .map.side_of_road,
+            RoadSide::right)
+      << "its own key holds";
 }
 
 TEST(VehicleConfig, AVehiclesFileHoldsWhereTheConfigurationIsSilent) {
