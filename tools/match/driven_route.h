@@ -41,5 +41,11 @@ DrivenRoute driven_route(const MatchedTrack& track, const mapmatch::RoadNetwork&
 // std::runtime_error naming the file.
 void write_route(const std::filesystem::path& file, const MatchedTrack& track,
                  const mapmatch::RoadNetwork& network);
+// Writes each link of the route as a line, with the members of `ways`.
+void write_route_geojson(const std::filesystem::path& file, const MatchedTrack& track,
+                         const mapmatch::RoadNetwork& network);
+// Writes the route as a track with a segment for each piece.
+void write_route_gpx(const std::filesystem::path& file, const MatchedTrack& track,
+                     const mapmatch::RoadNetwork& network);
 
 }  // namespace maploop::match

@@ -7,6 +7,7 @@
 #include "mapmatch/reasons.h"
 #include "msgs/frames.h"
 #include "tools/evaluate/text_file.h"
+#include "tools/match/gpx_text.h"
 
 namespace maploop::match {
 namespace {
@@ -94,22 +95,16 @@ void write_match_geojson(const std::filesystem::path& file, const MatchedTrack& 
 
 void write_match_gpx(const std::filesystem::path& file, const MatchedTrack& track,
                      const mapmatch::RoadNetwork& network) {
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<gpx version=\"1.1\" creator=\"maploop\" "
-      "xmlns=\"http://www.topografix.com/GPX/1/1\">\n<trk><name>matched positions</name><trkseg>\n";
+  std::string text = gpx_begin("matched positions") + "<trkseg>\n";
   for (std::size_t i = 0; i < track.fixes.size(); ++i) {
     const mapmatch::MatchResult& r = track.results[i];
     if (!on_road(r)) {
       if (i > 0 && on_road(track.results[i - 1])) text += "</trkseg><trkseg>\n";
       continue;
     }
-    const Geodetic matched = network.to_geodetic(r.point.position);
-    std::string time = format_time(track.fixes[i].stamp);
-    time[time.find(' ')] = 'T';
-    text += fmt::format("<trkpt lat=\"{:.9f}\" lon=\"{:.9f}\"><time>{}Z</time></trkpt>\n",
-                        degrees(matched.latitude), degrees(matched.longitude), time);
+    text += gpx_point(network.to_geodetic(r.point.position), track.fixes[i].stamp);
   }
-  evaluation::write_text(file, text + "</trkseg></trk>\n</gpx>\n");
+  evaluation::write_text(file, text + "</trkseg>\n" + std::string(gpx_end));
 }
 
 }  // namespace maploop::match

@@ -116,5 +116,31 @@ TEST(DrivenRoute, ItsFileHasTheFormOfOsrm) {
   EXPECT_EQ(nlohmann::json::parse(evaluation::read_text(file))["code"], "NoMatch");
 }
 
+TEST(DrivenRoute, ItsGeoJsonHasALineForEachLink) {
+  const auto network = row();
+  const maploop::testing::TemporaryFolder folder;
+  const auto file = folder.path() / "route.geojson";
+  write_route_geojson(file, matched(network, drive({{50, 0}, {640, 0}}, 20.0, 0.2)), network);
+  const auto features = nlohmann::json::parse(evaluation::read_text(file))["features"];
+  ASSERT_EQ(features.size(), 3U);
+  EXPECT_EQ(features[1]["properties"]["way_id"], 11);
+  EXPECT_EQ(features[1]["geometry"]["coordinates"].size(), 2U);
+  EXPECT_EQ(features[0]["geometry"]["coordinates"].back(),
+            features[1]["geometry"]["coordinates"].front());
+}
+
+TEST(DrivenRoute, ItsGpxIsReadAsATrackWhoseTimesIncrease) {
+  const auto network = row();
+  const maploop::testing::TemporaryFolder folder;
+  const auto file = folder.path() / "route.gpx";
+  const auto track = matched(network, drive({{50, 0}, {640, 0}}, 20.0, 0.2));
+  write_route_gpx(file, track, network);
+  const Track read = read_track(file, {});
+  ASSERT_GE(read.size(), 4U);
+  EXPECT_NEAR(read.back().position.longitude, track.fixes.back().position.longitude, 1e-6);
+  EXPECT_NEAR(to_seconds(read.back().stamp - track.fixes.back().stamp), 0.0, 1e-3);
+  for (std::size_t i = 1; i < read.size(); ++i) EXPECT_GE(read[i].stamp, read[i - 1].stamp);
+}
+
 }  // namespace
 }  // namespace maploop::match

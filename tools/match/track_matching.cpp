@@ -1,0 +1,161 @@
+#include "tools/match/track_matching.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "mapmatch/match_history.h"
+#include "tools/match/driven_route.h"
+#include "tools/match/match_summary.h"
+
+namespace maploop::match {
+namespace {
+
+// What is said of one track; kilometres are those of its route.
+struct TrackResult {
+  MatchSummary counts;
+  double kilometres = 0.0;
+  std::string error;
+};
+
+double kilometres_of(const MatchedTrack& track, const mapmatch::RoadNetwork& network) {
+  double metres = 0.0;
+  for (const DrivenRoute::Piece& piece : driven_route(track, network).pieces)
+    for (const RouteStep& step : piece) metres += step.length();
+  return metres / 1000.0;
+}
+
+std::string line(const std::string& name, const TrackResult& r) {
+  const auto percent = [&](std::size_t count) {
+    return r.counts.fixes > 0
+               ? 100.0 * static_cast<double>(count) / static_cast<double>(r.counts.fixes)
+               : 0.0;
+  };
+  return fmt::format("{:<30} {:>8} {:>8.2f} {:>8.2f} {:>8.2f} {:>9.2f}\n",
+                     name.size() <= 30 ? name : "..." + name.substr(name.size() - 27),
+                     r.counts.fixes, percent(r.counts.matched), percent(r.counts.doubtful),
+                     percent(r.counts.off_road), r.kilometres);
+}
+
+// Shows how many tracks are done, and how long the others will take, at most once a second.
+class TrackProgress {
+ public:
+  explicit TrackProgress(std::size_t tracks) : tracks_(tracks) {}
+
+  void done_with_one() {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    const auto now = Clock::now();
+    if (now < next_ && done_ < tracks_) return;
+    if (done_ == tracks_ && !shown_) return;
+    next_ = now + std::chrono::seconds(1);
+    shown_ = true;
+    const double left = to_seconds(now - start_) * static_cast<double>(tracks_ - done_) /
+                        static_cast<double>(done_);
+    std::cerr << fmt::format("matched {} of {} tracks, {:.0f} s left\n", done_, tracks_, left);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::size_t tracks_, done_ = 0;
+  std::mutex mutex_;
+  Clock::time_point start_ = Clock::now(), next_ = start_ + std::chrono::seconds(2);
+  bool shown_ = false;
+};
+
+void refuse_equal_names(std::span<const std::filesystem::path> files) {
+  std::map<std::string, std::filesystem::path> names;
+  for (const std::filesystem::path& file : files) {
+    const auto [other, is_new] = names.emplace(file.stem().string(), file);
+    if (!is_new) {
+      throw std::runtime_error(other->second.string() + " and " + file.string() +
+                               " would have the same files of results: match them apart");
+    }
+  }
+}
+
+}  // namespace
+
+MatchedTrack TrackMatching::match(Track fixes, std::string name,
+                                  std::vector<double>* microseconds) const {
+  MatchedTrack track{std::move(fixes), {}, std::move(name)};
+  mapmatch::Matcher matcher(network, rules, parameters);
+  mapmatch::MatchHistory history(network);
+  track.results.reserve(track.fixes.size());
+  for (const mapmatch::VehicleFix& fix : track.fixes) {
+    const auto start = std::chrono::steady_clock::now();
+    const mapmatch::MatchResult& result = matcher.add(fix);
+    if (microseconds != nullptr)
+      microseconds->push_back(1e6 * to_seconds(std::chrono::steady_clock::now() - start));
+    track.results.push_back(result);
+    if (lag > Duration::zero()) history.add(result, matcher);
+  }
+  if (lag > Duration::zero()) track.results = history.judged_after(lag);
+  return track;
+}
+
+void match_tracks(std::span<const std::filesystem::path> files,
+                  const std::function<Track(const std::filesystem::path&)>& read,
+                  const TrackMatching& matching, std::span<const TrackOutput> outputs) {
+  if (!outputs.empty()) refuse_equal_names(files);
+  for (const TrackOutput& output : outputs) std::filesystem::create_directories(output.folder);
+  std::vector<TrackResult> results(files.size());
+  TrackProgress progress(files.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < files.size(); i = next++) {
+      TrackResult& result = results[i];
+      try {
+        const std::filesystem::path& file = files[i];
+        const MatchedTrack track = matching.match(read(file), file.filename().string(), nullptr);
+        if (const auto why = why_unusable(track, matching.network)) throw std::runtime_error(*why);
+        result.counts = summary(track, matching.network);
+        result.kilometres = kilometres_of(track, matching.network);
+        for (const TrackOutput& output : outputs)
+          output.write(output.folder / (file.stem().string() + output.ending), track);
+      } catch (const std::exception& e) {
+        result.error = e.what();
+      }
+      progress.done_with_one();
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    const std::size_t count =
+        std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, files.size());
+    threads.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) threads.emplace_back(work);
+  }
+  std::cout << "track                             fixes  road %  doubt %   off %  route km\n";
+  TrackResult all;
+  std::size_t failed = 0;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const TrackResult& r = results[i];
+    if (!r.error.empty()) {
+      ++failed;
+      std::cerr << files[i].string() << ": " << r.error << '\n';
+      continue;
+    }
+    std::cout << line(files[i].filename().string(), r);
+    all.counts.fixes += r.counts.fixes;
+    all.counts.matched += r.counts.matched;
+    all.counts.doubtful += r.counts.doubtful;
+    all.counts.off_road += r.counts.off_road;
+    all.kilometres += r.kilometres;
+  }
+  std::cout << line(fmt::format("all {} tracks", files.size() - failed), all)
+            << "road: matched; doubt: of these with P below 0.9; off: in the map, but on no road\n";
+  if (failed > 0) {
+    throw std::runtime_error(fmt::format(
+        "{} of {} tracks could not be matched; the reason of each is above", failed, files.size()));
+  }
+}
+
+}  // namespace maploop::match
