@@ -17,6 +17,8 @@
 #include "tools/experiment/table.h"
 #include "tools/match/baseline_matchers.h"
 #include "tools/match/recorded_drives.h"
+#include "tools/match/route_score.h"
+#include "tools/match/track_matching.h"
 
 namespace maploop::tools {
 namespace {
@@ -48,7 +50,8 @@ struct Scores {
 
 struct Case {
   std::string name;
-  std::vector<Scores> scores;  // by matcher
+  std::vector<Scores> scores{};  // by matcher
+  match::RouteScore route{};     // by the fixes of 10 s
 };
 
 std::vector<NamedMatcher> matchers(const mapmatch::RoadNetwork& network,
@@ -100,6 +103,9 @@ std::vector<Case> run_all(const MatchExperimentOptions& options,
                           const mapmatch::RoadNetwork& network,
                           const std::vector<NamedMatcher>& all) {
   const match::SegmentLinks links(network);
+  const mapmatch::RuleBases rules = options.rule_bases();
+  const mapmatch::MatchParameters parameters = options.parameters();
+  const match::TrackMatching whole{network, rules, parameters, std::chrono::seconds(10)};
   const std::vector<match::InputCondition> conditions = match::input_conditions();
   std::vector<std::vector<Case>> drives(conditions.size());
   std::vector<Case> pooled;
@@ -112,11 +118,16 @@ std::vector<Case> run_all(const MatchExperimentOptions& options,
     links.look_up(drive.labels);
     for (std::size_t c = 0; c < conditions.size(); ++c) {
       const auto tracks = conditions[c].realizations(drive, options.seeds);
-      Case& own = drives[c].emplace_back(Case{name, {}});
+      Case& own = drives[c].emplace_back(Case{name});
       for (std::size_t m = 0; m < all.size(); ++m) {
         own.scores.push_back(run(all[m], drive, tracks));
         pooled[c].scores[m] += own.scores.back();
       }
+      for (const match::NoisyTrack& noisy : tracks) {
+        own.route += match::score_route(whole.match(noisy.track, name, nullptr), noisy.rows,
+                                        drive.labels, network);
+      }
+      pooled[c].route += own.route;
     }
   }
   std::cerr << '\n';
@@ -154,6 +165,14 @@ int match_experiment(const MatchExperimentOptions& options) {
   })) << as_text(table_of("Time, us a fix", all, cases, [](const Scores& s) {
     return number(1e6 * s.seconds / static_cast<double>(std::max<std::size_t>(1, s.fixes)), 1);
   }));
+  experiments::Table routes{
+      "Route, by the fixes of 10 s", {"input", "m", "right %", "too much %"}, {}};
+  for (const Case& c : cases) {
+    routes.rows.push_back({c.name, number(c.route.driven, 0),
+                           number(100.0 * c.route.right_share(), 2),
+                           number(100.0 * c.route.too_much_share(), 2)});
+  }
+  std::cout << as_text(routes);
   nlohmann::json json;
   match::Reliability reliability;
   const std::size_t step = options.each ? options.sequences.size() + 1 : 1;

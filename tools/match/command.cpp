@@ -1,4 +1,6 @@
 // maploop match: recorded tracks on the roads they were driven on.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -14,6 +16,7 @@
 #include "tools/match/driven_route.h"
 #include "tools/match/match_output.h"
 #include "tools/match/match_score.h"
+#include "tools/match/route_score.h"
 #include "tools/match/track_matching.h"
 
 namespace maploop::tools {
@@ -63,7 +66,11 @@ void print_score(const match::MatchedTrack& track, const mapmatch::RoadNetwork& 
   auto driven = match::read_labels(labels);
   match::SegmentLinks(network).look_up(driven);
   score.add(matched, rows, driven);
-  std::cout << match::to_text(score);
+  const match::RouteScore route = match::score_route(track, rows, driven, network);
+  std::cout << match::to_text(score)
+            << fmt::format("route: {:.2f} % of {:.0f} m driven are right, {:.2f} % are too much\n",
+                           100.0 * route.right_share(), route.driven,
+                           100.0 * route.too_much_share());
 }
 
 std::vector<match::TrackOutput> outputs(const MatchOptions& options,

@@ -25,37 +25,6 @@ struct Way {
   bool operator<(const Way& other) const { return cost > other.cost; }
 };
 
-// Returns the links between two links, or nothing if there is no way of at most this length.
-std::optional<std::vector<DirectedLink>> links_between(const RoadNetwork& network,
-                                                       DirectedLink from, DirectedLink to,
-                                                       double reach) {
-  std::priority_queue<Way> open;
-  const auto leave = [&](const Way& way, DirectedLink link) {
-    for (const DirectedLink exit : network.exits(network.end_junction(link))) {
-      Way next = way;
-      const bool legal = network.allowed(exit) && network.allowed_turn(link, exit);
-      next.cost += legal && exit != link.reversed() ? 0.0 : forbidden;
-      next.links.push_back(exit);
-      open.push(std::move(next));
-    }
-  };
-  leave({}, from);
-  while (!open.empty()) {
-    Way way = open.top();
-    open.pop();
-    const DirectedLink link = way.links.back();
-    if (link == to) {
-      way.links.pop_back();
-      return way.links;
-    }
-    const double length = network.link(link.link).length;
-    way.length += length;
-    way.cost += length;
-    if (way.length <= reach && way.links.size() < most_links) leave(way, link);
-  }
-  return {};
-}
-
 // Builds a route fix by fix.
 class RouteBuilder {
  public:
@@ -143,6 +112,36 @@ class RouteBuilder {
 };
 
 }  // namespace
+
+std::optional<std::vector<DirectedLink>> links_between(const RoadNetwork& network,
+                                                       DirectedLink from, DirectedLink to,
+                                                       double reach) {
+  std::priority_queue<Way> open;
+  const auto leave = [&](const Way& way, DirectedLink link) {
+    for (const DirectedLink exit : network.exits(network.end_junction(link))) {
+      Way next = way;
+      const bool legal = network.allowed(exit) && network.allowed_turn(link, exit);
+      next.cost += legal && exit != link.reversed() ? 0.0 : forbidden;
+      next.links.push_back(exit);
+      open.push(std::move(next));
+    }
+  };
+  leave({}, from);
+  while (!open.empty()) {
+    Way way = open.top();
+    open.pop();
+    const DirectedLink link = way.links.back();
+    if (link == to) {
+      way.links.pop_back();
+      return way.links;
+    }
+    const double length = network.link(link.link).length;
+    way.length += length;
+    way.cost += length;
+    if (way.length <= reach && way.links.size() < most_links) leave(way, link);
+  }
+  return {};
+}
 
 DrivenRoute driven_route(const MatchedTrack& track, const RoadNetwork& network) {
   RouteBuilder builder(network);
