@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include "mapmatch/dead_ends.h"
 #include "mapmatch/foot_point.h"
 #include "mapmatch/road_network.h"
 #include "msgs/frames.h"
+#include "msgs/input_limits.h"
 
 namespace maploop::mapmatch {
 namespace {
@@ -19,11 +22,9 @@ constexpr double parallel = radians(20.0);
 constexpr double spacing = 20.0;        // m, between the places that are compared
 constexpr double bend = radians(60.0);  // from one link of a carriageway to the next
 constexpr double least_seen = 0.25;     // share of the places where there is an opposite one
-constexpr double one_sided = 0.8;       // least share of the compared places on one side
-
-bool one_way(const Link& link) {
-  return link.forward != link.backward;
-}
+constexpr std::size_t most_near =
+    10'000;                        // segments around a place; with more, sides are not judged
+constexpr double one_sided = 0.8;  // least share of the compared places on one side
 
 // Returns the names that a road has; those of several are separated by semicolons.
 std::vector<std::string_view> names(std::string_view text) {
@@ -53,81 +54,22 @@ bool same_road(const Road& a, const Road& b) {
   return false;
 }
 
-// Finds the ways whose reversal leaves fewer junctions that traffic cannot leave or cannot reach.
-class DeadEnds {
- public:
-  explicit DeadEnds(const RoadNetwork& network)
-      : network_(network), links_(network.data().roads.size()), gain_(links_.size()) {
-    for (std::uint32_t link = 0; link < network.size(); ++link)
-      if (one_way(network.link(link))) links_[way_of(link)].push_back(link);
-    for (std::uint32_t way = 0; way < links_.size(); ++way) gain_[way] = gain(links_[way]);
-  }
-
-  // At each such junction, it is the way with the greatest gain.
-  void mark(std::vector<OneWayCheck>& checks) const {
-    for (std::uint32_t junction = 0; junction < network_.data().junctions.size(); ++junction) {
-      if (!closed(junction, {})) continue;
-      std::ptrdiff_t most = 1;
-      for (const DirectedLink exit : network_.exits(junction))
-        most = std::max(most, gain_[way_of(exit.link)]);
-      for (const DirectedLink exit : network_.exits(junction)) {
-        if (gain_[way_of(exit.link)] < most) continue;
-        for (const std::uint32_t link : links_[way_of(exit.link)]) checks[link].dead_ended = true;
-      }
-    }
-  }
-
- private:
-  std::uint32_t way_of(std::uint32_t link) const {
-    return network_.vertex(network_.link(link).first_vertex).road;
-  }
-
-  std::ptrdiff_t gain(const std::vector<std::uint32_t>& links) const {
-    std::vector<std::uint32_t> junctions;
-    for (const std::uint32_t link : links) {
-      junctions.push_back(network_.link(link).start_junction);
-      junctions.push_back(network_.link(link).end_junction);
-    }
-    std::sort(junctions.begin(), junctions.end());
-    junctions.erase(std::unique(junctions.begin(), junctions.end()), junctions.end());
-    std::ptrdiff_t gain = 0;
-    for (const std::uint32_t junction : junctions)
-      gain += int{closed(junction, {})} - int{closed(junction, links)};
-    return gain;
-  }
-
-  // Returns whether traffic cannot leave or cannot reach a junction where roads meet, with some
-  // links (sorted) reversed.
-  bool closed(std::uint32_t junction, std::span<const std::uint32_t> reversed) const {
-    bool out = false, in = false;
-    for (const DirectedLink exit : network_.exits(junction)) {
-      const bool turned = std::binary_search(reversed.begin(), reversed.end(), exit.link);
-      out |= network_.allowed(turned ? exit.reversed() : exit);
-      in |= network_.allowed(turned ? exit : exit.reversed());
-    }
-    return network_.exits(junction).size() > 1 && !(in && out);
-  }
-
-  const RoadNetwork& network_;
-  std::vector<std::vector<std::uint32_t>> links_;  // one-way, by way
-  std::vector<std::ptrdiff_t> gain_;               // by way
-};
-
 // Returns on which side of a place on a one-way link the nearest opposite carriageway of its road
-// is: -1 left, 1 right, 0 none.
-int opposite_at(const RoadNetwork& network, DirectedLink link, double s) {
+// is: -1 left, 1 right, 0 none; or nothing if more segments are near than any real place has.
+std::optional<int> opposite_at(const RoadNetwork& network, DirectedLink link, double s) {
   const LinkPoint here = network.at(link, s);
   const Road& road = network.road_at(here.vertex);
   const Eigen::Vector2d& p = here.position;
   const Eigen::Vector2d right(here.direction.y(), -here.direction.x());
   double nearest = farthest;
   int side = 0;
+  std::size_t near = 0;
   network.index().visit(
       Box{p.x() - farthest, p.y() - farthest, p.x() + farthest, p.y() + farthest},
       [&](const IndexedSegment& segment) {
+        ++near;
         const Link& other = network.link(segment.link);
-        const Road& its = network.road_at(segment.vertex);
-        if (segment.link == link.link || !one_way(other) || !same_road(its, road)) return;
+        if (segment.link == link.link || !other.one_way()) return;
         const Eigen::Vector2d a = network.vertex(segment.vertex).position();
         const Eigen::Vector2d step = network.vertex(segment.vertex + 1).position() - a;
         const Eigen::Vector2d driven = other.forward ? step : Eigen::Vector2d(-step);
@@ -135,11 +77,14 @@ int opposite_at(const RoadNetwork& network, DirectedLink link, double s) {
         const Eigen::Vector2d foot = a + foot_share(p, a, step) * step;
         const double distance = (foot - p).norm();
         const double across = right.dot(foot - p);
-        if (distance >= nearest || std::abs(across) < distance * std::cos(parallel)) return;
+        if (distance >= nearest || std::abs(across) < distance * std::cos(parallel) ||
+            !same_road(network.road_at(segment.vertex), road)) {
+          return;
+        }
         nearest = distance;
         side = across > 0.0 ? 1 : -1;
       });
-  return side;
+  return near <= most_near ? std::optional(side) : std::nullopt;
 }
 
 // Counts the places where the opposite carriageway is to the left, to the right, or not there.
@@ -159,13 +104,15 @@ struct Sides {
   }
 };
 
-Sides sides_of(const RoadNetwork& network, std::uint32_t link) {
+// Returns nothing where too many segments are near.
+std::optional<Sides> sides_of(const RoadNetwork& network, std::uint32_t link) {
   const Link& l = network.link(link);
   const int places = 1 + static_cast<int>(std::min(l.length / spacing, 50.0));
   Sides sides;
   for (int i = 0; i < places; ++i) {
-    const int side = opposite_at(network, {link, l.forward}, (i + 0.5) * l.length / places);
-    ++(side < 0 ? sides.left : side > 0 ? sides.right : sides.none);
+    const auto side = opposite_at(network, {link, l.forward}, (i + 0.5) * l.length / places);
+    if (!side) return {};
+    ++(*side < 0 ? sides.left : *side > 0 ? sides.right : sides.none);
   }
   return sides;
 }
@@ -176,6 +123,7 @@ class Carriageways {
   explicit Carriageways(const RoadNetwork& network) : first_(network.size()) {
     std::iota(first_.begin(), first_.end(), 0U);
     for (const Junction& junction : network.data().junctions) {
+      if (junction.exit_count > input_limits::roads_at_node) continue;
       const std::span exits(network.data().exits.data() + junction.first_exit, junction.exit_count);
       for (const DirectedLink to : exits) {
         for (const DirectedLink from : exits) {
@@ -194,8 +142,8 @@ class Carriageways {
 
  private:
   static bool goes_on(const RoadNetwork& network, DirectedLink from, DirectedLink to) {
-    if (from.link == to.link || !one_way(network.link(from.link)) ||
-        !one_way(network.link(to.link)) || !network.allowed(from) || !network.allowed(to)) {
+    if (from.link == to.link || !network.link(from.link).one_way() ||
+        !network.link(to.link).one_way() || !network.allowed(from) || !network.allowed(to)) {
       return false;
     }
     const LinkPoint end = network.at(from, network.link(from.link).length);
@@ -207,24 +155,31 @@ class Carriageways {
   std::vector<std::uint32_t> first_;  // by link
 };
 
-}  // namespace
-
-OneWayChecks check_one_ways(const RoadNetwork& network) {
-  OneWayChecks checks{std::vector<OneWayCheck>(network.size())};
+// Finds the side of the opposite carriageway of each link.
+void judge_sides(const RoadNetwork& network, OneWayChecks& checks) {
   Carriageways carriageways(network);
   std::vector<Sides> sides(network.size());  // of the carriageway that a link stands for
   for (std::uint32_t link = 0; link < network.size(); ++link) {
-    if (!one_way(network.link(link))) continue;
-    sides[carriageways.first_of(link)].add(sides_of(network, link));
+    if (!network.link(link).one_way()) continue;
+    const auto own = sides_of(network, link);
+    if (!own) return;
+    sides[carriageways.first_of(link)].add(*own);
   }
   for (std::uint32_t link = 0; link < network.size(); ++link) {
-    if (!one_way(network.link(link))) continue;
+    if (!network.link(link).one_way()) continue;
     const std::int8_t side = sides[carriageways.first_of(link)].clear();
     checks.of_link[link].opposite_side = side;
     checks.to_left += side < 0 ? 1 : 0;
     checks.to_right += side > 0 ? 1 : 0;
   }
-  DeadEnds(network).mark(checks.of_link);
+}
+
+}  // namespace
+
+OneWayChecks check_one_ways(const RoadNetwork& network) {
+  OneWayChecks checks{std::vector<OneWayCheck>(network.size())};
+  judge_sides(network, checks);
+  for (const std::uint32_t link : dead_ended_links(network)) checks.of_link[link].dead_ended = true;
   return checks;
 }
 

@@ -47,6 +47,8 @@ struct Link {
   bool forward = true;               // may be driven from its first vertex to its last
   bool backward = true;              // may be driven from its last vertex to its first
   double length = 0.0;               // m
+
+  bool one_way() const { return forward != backward; }
 };
 
 template <class Archive>

@@ -112,6 +112,20 @@ TEST(OneWayCheck, AnEndOfTheMapAndAStreetBothWaysAreNotDoubted) {
   EXPECT_FALSE(doubted(street, 10));
 }
 
+// Each way is compared with those near it, which must not take hours for a map made to that end.
+TEST(OneWayCheck, AHeapOfWaysIsLeftAlone) {
+  SmallMap map;
+  constexpr std::int64_t ways = 12'000;
+  for (std::int64_t i = 1; i <= ways; ++i) {
+    map.node(2 * i, 0, 1e-3 * static_cast<double>(i))
+        .node(2 * i + 1, 10, 1e-3 * static_cast<double>(i));
+    map.way(i, {2 * i, 2 * i + 1}, carriageway());
+  }
+  const RoadNetwork network = map.network();
+  EXPECT_EQ(network.size(), static_cast<std::size_t>(ways));
+  EXPECT_EQ(network.one_way_checks().to_left + network.one_way_checks().to_right, 0U);
+}
+
 TEST(OneWayCheck, AContradictedDirectionIsDrivenBothWays) {
   const RoadNetwork network(divided_road(false, carriageway(), carriageway()).network().data(),
                             RoadSide::right);

@@ -71,7 +71,7 @@ nlohmann::json describe(const mapmatch::RoadNetwork& network) {
   std::map<std::string, std::size_t> classes;
   for (const mapmatch::Link& link : data.links) {
     length += link.length;
-    if (link.forward != link.backward) ++oneway;
+    if (link.one_way()) ++oneway;
   }
   const mapmatch::OneWayChecks& checks = network.one_way_checks();
   std::size_t doubted = 0;
