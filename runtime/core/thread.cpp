@@ -35,8 +35,7 @@ Thread::Thread(std::string name, Scheduling scheduling, std::stop_token stop, Bo
     asked.set_value(apply_scheduling(name_, scheduling));
     run(stop, body);
     at_end();
-    cpu_at_end_.store(read(CLOCK_THREAD_CPUTIME_ID).value_or(Duration{}).count(),
-                      std::memory_order_relaxed);
+    cpu_at_end_.store(this_thread_cpu_time().count(), std::memory_order_relaxed);
     cpu_clock_.store(no_clock, std::memory_order_release);
     ended_.store(true, std::memory_order_release);
   });
@@ -73,6 +72,10 @@ Duration Thread::cpu_time() const {
     if (const std::optional<Duration> used = read(clock)) return *used;
   }
   return Duration(cpu_at_end_.load(std::memory_order_relaxed));
+}
+
+Duration this_thread_cpu_time() {
+  return read(CLOCK_THREAD_CPUTIME_ID).value_or(Duration{});
 }
 
 }  // namespace maploop::runtime

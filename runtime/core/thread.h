@@ -53,4 +53,7 @@ class Thread {
   std::thread thread_;
 };
 
+// Returns the processor time that the calling thread has used so far. It enters the kernel.
+Duration this_thread_cpu_time();
+
 }  // namespace maploop::runtime

@@ -11,11 +11,12 @@
 #include "msgs/diagnostics.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/edge.h"
+#include "runtime/core/thread.h"
 #include "runtime/core/trace_span.h"
 #include "runtime/vehicle/graph/rings.h"
 #include "runtime/vehicle/graph/trace_flows.h"
 #include "runtime/vehicle/health/episodes.h"
-#include "runtime/vehicle/health/meter.h"
+#include "runtime/vehicle/health/thread_meter.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
@@ -23,7 +24,7 @@ namespace maploop::vehicle {
 // What the graph needs of a driver of which it does not know the sample's type.
 class DriverBase {
  public:
-  explicit DriverBase(const StageSpec& spec) : spec_(spec), lateness_(spec.name, {}) {}
+  explicit DriverBase(const StageSpec& spec) : spec_(spec), meter_(spec) {}
   virtual ~DriverBase() = default;
   DriverBase(const DriverBase&) = delete;
   DriverBase& operator=(const DriverBase&) = delete;
@@ -45,8 +46,10 @@ class DriverBase {
   // Up to which time all of its samples have been sent; any thread.
   virtual Time promised() const = 0;
 
-  // How long after its due time each sample was released.
-  const Meter& lateness() const { return lateness_; }
+  // How long after its due time each sample was released, and the processor time of each: all that
+  // this thread took since the sample before, so that no wait for a reader, a loader or a sensor is
+  // in it.
+  const ThreadMeter& meter() const { return meter_; }
 
   // Of the samples released.
   ArrivalWatch& arrivals() { return arrivals_; }
@@ -59,11 +62,18 @@ class DriverBase {
 
  protected:
   runtime::TraceBuffer* trace() { return trace_; }
-  void record_lateness(Duration lateness) { lateness_.record(lateness); }
+  // At the beginning of run(): what the thread took for its start is of no sample.
+  void begin_steps() { used_ = runtime::this_thread_cpu_time(); }
+  void woke(Duration late) { meter_.woke(late); }
+  void end_step() {
+    const Duration before = std::exchange(used_, runtime::this_thread_cpu_time());
+    meter_.ran(used_ - before);
+  }
 
  private:
   const StageSpec& spec_;
-  Meter lateness_;
+  ThreadMeter meter_;
+  Duration used_{};  // processor time up to the end of the last step
   ArrivalWatch arrivals_;
   runtime::TraceBuffer* trace_ = nullptr;
 };
@@ -91,7 +101,7 @@ class Driver : public DriverBase {
     const Time available = sample.available;
     const MonotonicTime due = clock.due(available);
     sample.received = runtime::monotonic_now();
-    record_lateness(std::max(Duration::zero(), sample.received - due));
+    woke(std::max(Duration::zero(), sample.received - due));
     arrivals().arrived(available);
     const MonotonicTime received = sample.received;
     for (auto* ring : outputs_.rings()) {
@@ -108,6 +118,7 @@ class Driver : public DriverBase {
     if (now - received > runtime::DataClock::tolerance && clock.stall(available, now)) {
       runtime::trace_instant(trace(), "stall");
     }
+    end_step();
   }
 
  private:

@@ -30,6 +30,7 @@ class LiveDriver final : public Driver<T> {
 
   // Before the clock has started nothing is late.
   void run(runtime::DataClock& clock, const std::stop_token& stop) override {
+    this->begin_steps();
     Time last = Time::min();
     write_report();
     while (!stop.stop_requested()) {

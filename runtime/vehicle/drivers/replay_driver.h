@@ -31,10 +31,11 @@ class ReplayDriver final : public Driver<T> {
   }
 
   void run(runtime::DataClock& clock, const std::stop_token& stop) override {
+    this->begin_steps();
     Time last = Time::min();
     for (; more_; more_ = source_->next(sample_)) {
       if (sample_.available <= last) {
-        throw std::logic_error("the source of '" + this->lateness().name() +
+        throw std::logic_error("the source of '" + std::string(this->spec().name) +
                                "' broke its promise of increasing times at sample " +
                                std::to_string(sample_.sequence));
       }

@@ -19,8 +19,10 @@ VehicleReport Vehicle::Graph::report() const {
   runtime::Histogram lateness;
   for (const StageSpec& spec : stages::all) {
     if (const DriverBase* driver = this->driver(spec)) {
-      r.sensors.push_back({std::string(spec.name), driver->report(), driver->lateness().summary()});
-      lateness.merge(driver->lateness().histogram());
+      const runtime::Histogram& late = driver->meter().wake_up();
+      r.sensors.push_back(
+          {std::string(spec.name), driver->report(), late.summarize(std::string(spec.name))});
+      lateness.merge(late);
     } else if (spec.expected) {
       r.sensors.push_back({std::string(spec.name), {}, {}});
     }

@@ -14,7 +14,7 @@ void HealthMonitor::start(Time first, MonotonicTime wall, Time origin) {
 
 void HealthMonitor::watch_driver(const runtime::Thread& thread, DriverBase& driver) {
   threads_.push_back({&thread,
-                      nullptr,
+                      &driver.meter(),
                       &driver,
                       {},
                       Watchdog(driver.spec(), Watchdog::Kind::driver, first_, wall_start_)});
@@ -60,8 +60,8 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
     t.scheduling = watched.thread->settings().front().granted;
     t.failure = watched.thread->failure();
     t.cpu = to_seconds(watched.thread->cpu_time());
-    if (watched.meter != nullptr) t.left_out = watched.meter->left_out();
-    t.count = watched.count();
+    t.left_out = watched.meter->left_out();
+    t.count = watched.meter->count();
     if (elapsed > Duration::zero()) {
       t.rate = static_cast<double>(t.count - watched.seen) / to_seconds(elapsed);
     }
@@ -135,10 +135,6 @@ Deadlines HealthMonitor::deadlines(Time stamp) const {
   };
   for (const Watched& watched : threads_) {
     const std::string& name = watched.thread->name();
-    if (watched.meter == nullptr) {
-      add(deadlines.wake_up, name, watched.driver->lateness().histogram());
-      continue;
-    }
     if (watched.meter->has_deadline()) {
       deadlines.threads.push_back(watched.meter->latency().summary());
     }

@@ -56,15 +56,11 @@ class HealthMonitor {
  private:
   struct Watched {
     const runtime::Thread* thread;
-    const ThreadMeter* meter;  // null for a driver
-    DriverBase* driver;        // null for a stage
+    const ThreadMeter* meter;
+    DriverBase* driver;  // null for a stage
     std::vector<runtime::EdgeBase*> inputs;
     Watchdog watchdog;
     std::uint64_t seen = 0;
-
-    std::uint64_t count() const {
-      return meter != nullptr ? meter->count() : driver->lateness().count();
-    }
   };
   static StageFacts facts(const Watched& watched, std::uint64_t count);
 

@@ -44,10 +44,12 @@ class ThreadMeter {
   // `timed` is whether the clock keeps time. Returns whether the deadline was missed.
   bool worked(const Work& work, bool timed);
 
-  // Any other thread records how long it was ready before it ran.
+  // Any other thread records how long it was ready before it ran; a driver, how long its sample was
+  // due.
   void woke(Duration late) { wake_up_.record(late); }
 
-  // Records how long one tick, sample or message took.
+  // Records how long one tick, sample or message took: from beginning to end, but the processor
+  // time of a driver, which waits within its steps.
   void ran(Duration execution) { execution_.record(execution); }
 
   Meter& latency() { return latency_; }

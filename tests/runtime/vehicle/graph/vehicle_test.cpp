@@ -132,7 +132,8 @@ TEST(Vehicle, EveryThreadSaysHowItKeptItsTime) {
   EXPECT_EQ(names(r.report.deadlines.threads), "stereo lidar fusion ");
   EXPECT_EQ(names(r.report.deadlines.wake_up),
             "camera velodyne imu gnss reference stereo lidar fusion health ");
-  EXPECT_EQ(names(r.report.deadlines.execution), "stereo lidar fusion publisher health ");
+  EXPECT_EQ(names(r.report.deadlines.execution),
+            "camera velodyne imu gnss reference stereo lidar fusion publisher health ");
   EXPECT_EQ(names(r.report.deadlines.period_jitter), "fusion health ");
   double cpu = 0.0;
   for (const ThreadHealth& thread : r.report.health.threads) {
