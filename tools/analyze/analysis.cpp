@@ -65,7 +65,11 @@ Thread thread_of(const ThreadHealth& health, const StageSpec& stage,
   const profile::Latency* const response = profile::find(run.threads, health.name);
   p.measured = response != nullptr ? to_milliseconds(response->max) : unknown;
   p.deadline = to_milliseconds(stage.deadline);
-  thread.task = {p.name, priority_of(scheduling), scheduling.cpus, p.period, p.execution.bound, {}};
+  const LatencySummary* const late = profile::find(run.wake_up, health.name);
+  thread.task = {
+      p.name,   priority_of(scheduling), scheduling.cpus,
+      p.period, p.execution.bound,       late != nullptr ? to_milliseconds(late->max) : 0.0,
+      {}};
   return thread;
 }
 
@@ -85,24 +89,39 @@ void join(std::vector<Task>& tasks) {
   std::apply([&](const auto&... ring) { (add(ring), ...); }, vehicle::rings::all);
 }
 
+// The kernel may hold up any thread as long as it held up one of the same or a higher priority. One
+// of a lower priority waited for others as well.
+void share_blocking(std::vector<Task>& tasks) {
+  double longest = 0.0;
+  for (auto task = tasks.begin(); task != tasks.end();) {
+    const auto lower =
+        std::find_if(task, tasks.end(), [&](const Task& t) { return t.priority < task->priority; });
+    for (auto t = task; t != lower; ++t) longest = std::max(longest, t->blocking);
+    for (; task != lower; ++task) task->blocking = longest;
+  }
+}
+
 // Returns what would let the task meet its deadline.
 std::string remedy(const std::vector<Task>& tasks, std::size_t i, const Analysis& a) {
   const Promise& p = a.threads[i];
   const int cpus = a.cpus;
-  const auto kept = [&](const std::vector<Task>& changed, int n, double blocking) {
-    return response_times(changed, n, blocking)[i] <= p.deadline;
+  const double blocking = tasks[i].blocking;
+  const auto kept = [&](const std::vector<Task>& changed, int n) {
+    return response_times(changed, n)[i] <= p.deadline;
   };
+  std::vector<Task> unblocked = tasks;
+  for (Task& task : unblocked) task.blocking = 0.0;
   if (p.execution.bound > p.deadline)
     return fmt::format("its own step takes up to {:.3f} ms", p.execution.bound);
-  if (kept(tasks, cpus, 0.0) || p.execution.bound + a.blocking > p.deadline) {
+  if (kept(unblocked, cpus) || p.execution.bound + blocking > p.deadline) {
     return fmt::format(
         "its step takes up to {:.3f} ms, and the kernel wakes threads up to {:.3f} ms late: see "
         "maploop doctor",
-        p.execution.bound, a.blocking);
+        p.execution.bound, blocking);
   }
   std::vector<Task> first = tasks;
   for (const Task& task : tasks) first[i].priority = std::max(first[i].priority, task.priority + 1);
-  if (kept(first, cpus, a.blocking)) return fmt::format("priority {} would do", first[i].priority);
+  if (kept(first, cpus)) return fmt::format("priority {} would do", first[i].priority);
   if (cpus > 1) {
     std::vector<Task> apart = tasks;
     for (Task& task : apart) {
@@ -110,14 +129,14 @@ std::string remedy(const std::vector<Task>& tasks, std::size_t i, const Analysis
       for (int cpu = 0; cpu < cpus - 1; ++cpu) task.cpus.push_back(cpu);
     }
     apart[i].cpus = {cpus - 1};
-    if (kept(apart, cpus, a.blocking)) {
+    if (kept(apart, cpus)) {
       return fmt::format("a CPU of its own would do: cpus = [{}], and the others elsewhere",
                          cpus - 1);
     }
   }
   constexpr int most_cpus = 16;
   for (int more = cpus + 1; more <= most_cpus; ++more) {
-    if (kept(tasks, more, a.blocking)) return fmt::format("{} CPUs would do", more);
+    if (kept(tasks, more)) return fmt::format("{} CPUs would do", more);
   }
   return "no priority, and no number of CPUs up to 16, would do";
 }
@@ -148,14 +167,16 @@ Analysis analyze(const profile::Profile& run, const vehicle::SchedulingParameter
   for (const Thread& thread : threads) {
     tasks.push_back(thread.task);
     analysis.utilization += thread.task.execution / thread.task.period / parameters.cpus;
-    if (const LatencySummary* late = profile::find(run.wake_up, thread.task.name))
-      analysis.blocking = std::max(analysis.blocking, to_milliseconds(late->max));
+    analysis.blocking = std::max(analysis.blocking, thread.task.blocking);
   }
   join(tasks);
-  const std::vector<double> response = response_times(tasks, parameters.cpus, analysis.blocking);
+  share_blocking(tasks);
+  const std::vector<double> response = response_times(tasks, parameters.cpus);
   for (std::size_t i = 0; i < threads.size(); ++i) {
-    threads[i].promise.response = response[i];
-    analysis.threads.push_back(threads[i].promise);
+    Promise& p = threads[i].promise;
+    // Longer in the run if the step had to wait for the one before, or for an input.
+    p.response = std::max(response[i], p.measured);
+    analysis.threads.push_back(p);
   }
   for (std::size_t i = 0; i < threads.size(); ++i) {
     const Promise& p = analysis.threads[i];

@@ -12,41 +12,57 @@ namespace maploop::analyze {
 namespace {
 
 Task task(int priority, double period, double execution) {
-  return {"", priority, {}, period, execution, {}};
+  return {"", priority, {}, period, execution, 0.0, {}};
 }
 
 TEST(ResponseTimes, OnOneCpuAreThoseOfTheTextbook) {
   const std::vector<double> r =
-      response_times({task(3, 4.0, 1.0), task(2, 6.0, 2.0), task(1, 12.0, 3.0)}, 1, 0.0);
+      response_times({task(3, 4.0, 1.0), task(2, 6.0, 2.0), task(1, 12.0, 3.0)}, 1);
   EXPECT_DOUBLE_EQ(r[0], 1.0);
   EXPECT_DOUBLE_EQ(r[1], 3.0);
   EXPECT_DOUBLE_EQ(r[2], 10.0) << "three steps of the first, two of the second";
 }
 
 TEST(ResponseTimes, BlockingIsOnTop) {
-  EXPECT_DOUBLE_EQ(response_times({task(1, 10.0, 2.0)}, 1, 0.5)[0], 2.5);
+  Task held_up = task(1, 10.0, 2.0);
+  held_up.blocking = 0.5;
+  EXPECT_DOUBLE_EQ(response_times({held_up}, 1)[0], 2.5);
+}
+
+TEST(ResponseTimes, AStepThatWasHeldUpComesSoonerBeforeTheNext) {
+  std::vector<Task> tasks{task(2, 10.0, 6.0), task(1, 30.0, 3.0)};
+  EXPECT_DOUBLE_EQ(response_times(tasks, 1)[1], 9.0);
+  tasks[0].blocking = 2.0;
+  EXPECT_DOUBLE_EQ(response_times(tasks, 1)[1], 15.0) << "twice within 9 ms";
+}
+
+TEST(ResponseTimes, ALongStepOnAnotherCpuDelaysOnlyWhileThatOneIsTakenToo) {
+  const std::vector<double> r =
+      response_times({task(3, 100.0, 1.0), task(2, 100.0, 30.0), task(1, 100.0, 20.0)}, 2);
+  EXPECT_DOUBLE_EQ(r[1], 30.0) << "one other thread cannot take both";
+  EXPECT_DOUBLE_EQ(r[2], 21.0) << "both are taken for 1 ms at most";
 }
 
 TEST(ResponseTimes, AreUnboundedWhereOthersTakeAllTheTime) {
-  const std::vector<double> r = response_times({task(2, 2.0, 2.0), task(1, 100.0, 1.0)}, 1, 0.0);
+  const std::vector<double> r = response_times({task(2, 2.0, 2.0), task(1, 100.0, 1.0)}, 1);
   EXPECT_DOUBLE_EQ(r[0], 2.0);
   EXPECT_TRUE(std::isinf(r[1]));
 }
 
 TEST(ResponseTimes, ThreadsOnOtherCpusDoNotDelay) {
   std::vector<Task> tasks{task(2, 10.0, 6.0), task(1, 20.0, 5.0)};
-  EXPECT_DOUBLE_EQ(response_times(tasks, 1, 0.0)[1], 17.0);
+  EXPECT_DOUBLE_EQ(response_times(tasks, 1)[1], 17.0);
   tasks[0].cpus = {0};
   tasks[1].cpus = {1};
-  EXPECT_DOUBLE_EQ(response_times(tasks, 2, 0.0)[1], 5.0);
+  EXPECT_DOUBLE_EQ(response_times(tasks, 2)[1], 5.0);
 }
 
 TEST(ResponseTimes, AResultThatComesLateReleasesTwoStepsCloseTogether) {
   // The second is released by the first, which ends after 1 to 9 ms: twice within 10 ms.
   std::vector<Task> tasks{task(3, 10.0, 9.0), task(2, 10.0, 0.5), task(1, 100.0, 0.1)};
-  const double apart = response_times(tasks, 4, 0.0)[2];
+  const double apart = response_times(tasks, 4)[2];
   tasks[1].after = {0};
-  EXPECT_GE(response_times(tasks, 4, 0.0)[2], apart);
+  EXPECT_GE(response_times(tasks, 4)[2], apart);
 }
 
 // Returns the longest response of each task, released at all multiples of its period after an
@@ -91,7 +107,7 @@ TEST(ResponseTimes, NoSimulatedScheduleExceedsThem) {
       tasks.push_back(task(10 - i, period, execution));
       offsets.push_back(static_cast<int>(random() % 20));
     }
-    const std::vector<double> bound = response_times(tasks, cpus, 0.0);
+    const std::vector<double> bound = response_times(tasks, cpus);
     const std::vector<double> seen = simulated(tasks, offsets, cpus, 5000);
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       // A step that ends after its successor's release is beyond what the analysis is for.
