@@ -47,9 +47,9 @@ struct Profile {
   // first, which contains the start.
   std::map<std::string, double> step_cpu;
 
-  // Whether the run was on virtual time, where threads do not wake up at given times and deadlines
-  // have no meaning.
-  bool virtual_time() const { return wake_up.empty() && worst.empty(); }
+  // Whether the run was on virtual time, where the fusion does not wake up at given times and
+  // deadlines have no meaning.
+  bool virtual_time() const { return period_jitter.empty() && worst.empty(); }
 };
 
 inline constexpr const char* no_deadlines =

@@ -66,6 +66,7 @@ profile::Profile run(double fusion_ms, double stereo_ms, double wake_up_ms) {
     p.threads.back().deadline = deadline;
   };
   add("fusion", 1000, fusion_ms, std::chrono::milliseconds(2));
+  p.period_jitter = {summary("fusion", wake_up_ms)};
   add("stereo", 100, stereo_ms, std::chrono::milliseconds(50));
   ThreadHealth camera;
   camera.name = "camera";
@@ -110,7 +111,7 @@ TEST(Analysis, SaysWhatWouldKeepADeadline) {
 
 TEST(Analysis, RefusesARunOnVirtualTime) {
   profile::Profile p = run(0.2, 20.0, 0.1);
-  p.wake_up.clear();
+  p.period_jitter.clear();
   EXPECT_THROW(analyze(p, {}, {.cpus = 1, .execution = {}}), std::invalid_argument);
 }
 

@@ -133,7 +133,7 @@ TEST(Profile, OnVirtualTimeNoDeadlineIsJudged) {
     EXPECT_NE(said.find("deadlines have no meaning"), std::string::npos) << said;
     EXPECT_EQ(said.find("No deadline was missed"), std::string::npos) << said;
   }
-  d.wake_up = {d.threads[0]};
+  d.period_jitter = {d.threads[0]};
   const Profile paced = profile_of(d, {});
   EXPECT_FALSE(paced.virtual_time());
   EXPECT_NE(to_text(paced).find("No deadline was missed"), std::string::npos);
