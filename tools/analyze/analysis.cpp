@@ -18,7 +18,6 @@ namespace {
 using vehicle::StageSpec;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double driver_margin = 3.0;  // on the largest mean of a second
 
 const StageSpec* stage_of(const std::string& name) {
   const auto found = std::find_if(vehicle::stages::all.begin(), vehicle::stages::all.end(),
@@ -53,15 +52,13 @@ Thread thread_of(const ThreadHealth& health, const StageSpec& stage,
   p.period = stage.period > Duration::zero() ? to_milliseconds(stage.period)
                                              : 1e3 * run.health.elapsed / steps;
   const LatencySummary* const execution = profile::find(run.execution, health.name);
-  if (execution != nullptr && execution->count > 0) {
-    p.execution = execution_bound(*execution, parameters);
-  } else {
-    p.from_mean = true;
-    p.execution.observed = unknown;
-    const auto step = run.step_cpu.find(health.name);
-    const double mean = step != run.step_cpu.end() ? step->second : health.cpu / steps;
-    p.execution.bound = driver_margin * 1e3 * mean;
+  if (execution == nullptr) {
+    throw std::invalid_argument(
+        fmt::format("the run does not say how long the steps of '{}' took, because an older "
+                    "version made it: record it again",
+                    health.name));
   }
+  p.execution = execution_bound(*execution, parameters);
   const profile::Latency* const response = profile::find(run.threads, health.name);
   p.measured = response != nullptr ? to_milliseconds(response->max) : unknown;
   p.deadline = to_milliseconds(stage.deadline);

@@ -18,9 +18,6 @@ struct Promise {
   std::string scheduling;  // as configured: "fifo 60"
   double period = 0.0;     // of a fixed rate, else the mean of the run
   ExecutionBound execution;
-  // A driver, whose steps are not measured: three times its largest mean processor time of a
-  // second.
-  bool from_mean = false;
   double response = 0.0;  // from release to result at most, by analysis
   double measured = 0.0;  // the longest of the run
   double deadline = 0.0;  // 0: none

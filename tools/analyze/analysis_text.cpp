@@ -34,9 +34,8 @@ std::string to_text(const Analysis& a) {
       "                       each     execution   release to result\n{}\n",
       a.cpus, 100.0 * a.utilization, a.blocking, web::heading_text(columns));
   for (const Promise& p : a.threads) text += web::to_text(columns, p) + '\n';
-  text += "bound: of the fitted tail, of the longest with a margin (-), or of the mean (driver):\n";
+  text += "bound: of the fitted tail, or of the longest with a margin (not used):\n";
   for (const Promise& p : a.threads) {
-    if (p.from_mean) continue;
     text += fmt::format("  {:<11} {} values in the tail, {:.2f} from the fitted one{}\n", p.name,
                         p.execution.exceedances, p.execution.distance,
                         p.execution.fitted ? "" : ": not used");

@@ -127,19 +127,7 @@ void ProfileCollector::add(std::string_view channel, std::span<const std::uint8_
   if (channel == vehicle::channels::deadlines.name) {
     take(maploop_lcm::deadlines_t{}, deadlines_, heard_deadlines_);
   } else if (channel == vehicle::channels::health.name) {
-    const Health before = health_;
     take(maploop_lcm::health_t{}, health_, heard_health_);
-    note_steps(before);
-  }
-}
-
-void ProfileCollector::note_steps(const Health& before) {
-  for (const ThreadHealth& now : health_.threads) {
-    for (const ThreadHealth& then : before.threads) {
-      if (then.name != now.name || now.count <= then.count) continue;
-      const double step = (now.cpu - then.cpu) / static_cast<double>(now.count - then.count);
-      step_cpu_[now.name] = std::max(step_cpu_[now.name], step);
-    }
   }
 }
 
@@ -154,9 +142,7 @@ Profile ProfileCollector::profile(const std::string& source) const {
                              "them with '--record LOG'");
   }
   try {
-    Profile profile = profile_of(deadlines_, health_);
-    profile.step_cpu = step_cpu_;
-    return profile;
+    return profile_of(deadlines_, health_);
   } catch (const std::invalid_argument& e) {
     throw std::runtime_error("the last DEADLINES of " + source + " is damaged: " + e.what());
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,9 +42,6 @@ struct Profile {
   std::vector<LatencySummary> wake_up, execution, period_jitter;
   std::vector<WorstMiss> worst;  // of all threads and paths, most overdue first; at most ten
   Health health;                 // contains the processor time
-  // Of each thread: the largest mean processor time (s) of a step between two reports, without the
-  // first, which contains the start.
-  std::map<std::string, double> step_cpu;
 
   // Whether the run was on virtual time, where the fusion does not wake up at given times and
   // deadlines have no meaning.
@@ -86,9 +82,6 @@ class ProfileCollector {
   Profile profile(const std::string& source) const;
 
  private:
-  void note_steps(const Health& before);
-
-  std::map<std::string, double> step_cpu_;
   bool heard_deadlines_ = false, heard_health_ = false;
   std::uint64_t not_understood_ = 0;
   Deadlines deadlines_;
