@@ -35,7 +35,8 @@ ParameterTable<CarDescription> parameter_table(const CarDescription&) {
        "Name of the car. What maploop replay and maploop live keep of a car (--state) is used only "
        "on a car of the same name."},
       {"side_of_road", one_of<&P::side_of_road>, usual,
-       "Side on which traffic keeps. With \"by-map\" it is that of most opposite carriageways of the "
+       "Side on which traffic keeps. With \"by-map\" it is that of most opposite carriageways of "
+       "the "
        "map, or right."},
       {"rear_axle_distance", &P::rear_axle_distance, -5.0, 5.0, "m", usual,
        "Distance from the rear axle forward to the body's origin, the inertial unit."},

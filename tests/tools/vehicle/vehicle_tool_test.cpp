@@ -100,11 +100,12 @@ TEST(Questions, AWrongAnswerIsAskedForAgain) {
   const VehicleDescription d = ask(in, out);
   EXPECT_EQ(d.car.rear_axle_distance, 1.2);
   EXPECT_EQ(d.car.rear_axle_distance_sigma, 1.0);
-  EXPECT_THAT(out.str(),
-              AllOf(HasSubstr("side_of_road is \"middle\"; allowed is \"by-map\", \"right\", \"left\""),
-                    HasSubstr("rear_axle_distance is 99; allowed is -5 to 5 m"),
-                    HasSubstr("rear_axle_distance_sigma is -1; allowed is above 0"),
-                    HasSubstr("rear_axle_distance is not a number: 'far'")));
+  EXPECT_THAT(
+      out.str(),
+      AllOf(HasSubstr("side_of_road is \"middle\"; allowed is \"by-map\", \"right\", \"left\""),
+            HasSubstr("rear_axle_distance is 99; allowed is -5 to 5 m"),
+            HasSubstr("rear_axle_distance_sigma is -1; allowed is above 0"),
+            HasSubstr("rear_axle_distance is not a number: 'far'")));
 }
 
 TEST(Questions, OnlyTheSensorsThatAreThereAreAskedFor) {
