@@ -63,9 +63,10 @@ Feedback::Line Feedback::line_beside(DirectedLink link, const Eigen::Vector2d& p
   const Road& road = network_->road_at(network_->link(link.link).first_vertex +
                                        static_cast<std::uint32_t>(segment));
   line.half_width = half_width(road);
-  if (road.forward && road.backward && !parameters_.hard_reset)
+  if (road.forward && road.backward && !parameters_.hard_reset) {
     line.lane =
         (network_->left_hand_traffic() ? -0.5 : 0.5) * parameters_.lane_share * line.half_width;
+  }
   return line;
 }
 

@@ -1,9 +1,8 @@
 // This file defines a named thread with requested scheduling, and records what the kernel granted.
 #pragma once
 
-#include <time.h>
-
 #include <atomic>
+#include <ctime>
 #include <functional>
 #include <mutex>
 #include <stop_token>

@@ -130,13 +130,13 @@ TEST(OneWayCheck, AContradictedDirectionIsDrivenBothWays) {
   const RoadNetwork network(divided_road(false, carriageway(), carriageway()).network().data(),
                             RoadSide::right);
   Matcher matcher(network, rules(), {});
-  const MatchResult* last = nullptr;
+  MatchResult last;
   for (const VehicleFix& fix : drive({{-250, 0}, {250, 0}}, 10.0, 1.0, 2.0))
-    last = &matcher.add(fix);
-  ASSERT_TRUE(last->on_road);
-  EXPECT_EQ(network.road_at(last->point.vertex).way_id, 10);
-  EXPECT_FALSE(network.allowed(last->link)) << "it is driven against the map's direction";
-  EXPECT_GT(last->probability, 0.9);
+    last = matcher.add(fix);
+  ASSERT_TRUE(last.on_road);
+  EXPECT_EQ(network.road_at(last.point.vertex).way_id, 10);
+  EXPECT_FALSE(network.allowed(last.link)) << "it is driven against the map's direction";
+  EXPECT_GT(last.probability, 0.9);
 }
 
 }  // namespace

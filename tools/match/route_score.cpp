@@ -26,9 +26,8 @@ std::vector<Part> driven_links(const Labels& labels, const mapmatch::RoadNetwork
   for (const auto& [row, label] : labels) {
     if (!label.link || label.link == before) continue;
     if (before) {
-      for (const DirectedLink link : links_between(network, *before, *label.link, most_between)
-                                         .value_or(std::vector<DirectedLink>{}))
-        drive(link);
+      const auto between = links_between(network, *before, *label.link, most_between);
+      if (between) std::for_each(between->begin(), between->end(), drive);
     }
     drive(*label.link);
     before = label.link;
