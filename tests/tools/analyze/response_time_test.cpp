@@ -109,7 +109,7 @@ TEST(ResponseTimes, NoSimulatedScheduleExceedsThem) {
       offsets.push_back(static_cast<int>(random() % 20));
     }
     const std::vector<double> bound = response_times(tasks, cpus);
-    const std::vector<double> seen = simulated(tasks, offsets, cpus, 5000);
+    const std::vector<double> seen = simulated(tasks, offsets, cpus, 2000);
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       // A step that ends after its successor's release is beyond what the analysis is for.
       const bool known = std::all_of(tasks.begin(), tasks.end(), [&](const Task& t) {
