@@ -70,10 +70,15 @@ class TrackProgress {
   bool shown_ = false;
 };
 
+// Returns the name of a track without its endings: "01" of "01.csv.gz".
+std::string name_of(const std::filesystem::path& file) {
+  return (file.extension() == ".gz" ? file.stem() : file).stem().string();
+}
+
 void refuse_equal_names(std::span<const std::filesystem::path> files) {
   std::map<std::string, std::filesystem::path> names;
   for (const std::filesystem::path& file : files) {
-    const auto [other, is_new] = names.emplace(file.stem().string(), file);
+    const auto [other, is_new] = names.emplace(name_of(file), file);
     if (!is_new) {
       throw std::runtime_error(other->second.string() + " and " + file.string() +
                                " would have the same files of results: match them apart");
@@ -115,11 +120,12 @@ void match_tracks(std::span<const std::filesystem::path> files,
       try {
         const std::filesystem::path& file = files[i];
         const MatchedTrack track = matching.match(read(file), file.filename().string(), nullptr);
-        if (const auto why = why_unusable(track, matching.network)) throw std::runtime_error(*why);
+        if (const auto why = why_unusable(track, matching.network))
+          throw std::runtime_error(file.string() + ": " + *why);
         result.counts = summary(track, matching.network);
         result.kilometres = kilometres_of(track, matching.network);
         for (const TrackOutput& output : outputs)
-          output.write(output.folder / (file.stem().string() + output.ending), track);
+          output.write(output.folder / (name_of(file) + output.ending), track);
       } catch (const std::exception& e) {
         result.error = e.what();
       }
@@ -140,7 +146,7 @@ void match_tracks(std::span<const std::filesystem::path> files,
     const TrackResult& r = results[i];
     if (!r.error.empty()) {
       ++failed;
-      std::cerr << files[i].string() << ": " << r.error << '\n';
+      std::cerr << r.error << '\n';
       continue;
     }
     std::cout << line(files[i].filename().string(), r);
