@@ -48,6 +48,7 @@ struct Link {
   bool backward = true;              // may be driven from its last vertex to its first
   double length = 0.0;               // m
 
+  // Returns whether it may be driven in one direction only.
   bool one_way() const { return forward != backward; }
 };
 
