@@ -4,6 +4,7 @@
 #include <span>
 
 #include "mapmatch/road_network.h"
+#include "msgs/input_limits.h"
 
 namespace maploop::mapmatch {
 namespace {
@@ -54,15 +55,17 @@ class DeadEnds {
   }
 
   // Returns whether traffic cannot leave or cannot reach a junction where roads meet, with some
-  // links (sorted) reversed.
+  // links (sorted) reversed. A junction of more roads than any real one has is not judged.
   bool closed(std::uint32_t junction, std::span<const std::uint32_t> reversed) const {
+    const auto exits = network_.exits(junction);
+    if (exits.size() < 2 || exits.size() > input_limits::roads_at_node) return false;
     bool out = false, in = false;
-    for (const DirectedLink exit : network_.exits(junction)) {
+    for (const DirectedLink exit : exits) {
       const bool turned = std::binary_search(reversed.begin(), reversed.end(), exit.link);
       out |= network_.allowed(turned ? exit.reversed() : exit);
       in |= network_.allowed(turned ? exit : exit.reversed());
     }
-    return network_.exits(junction).size() > 1 && !(in && out);
+    return !(in && out);
   }
 
   const RoadNetwork& network_;

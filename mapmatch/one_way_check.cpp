@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include "mapmatch/dead_ends.h"
@@ -122,9 +121,9 @@ class Carriageways {
  public:
   explicit Carriageways(const RoadNetwork& network) : first_(network.size()) {
     std::iota(first_.begin(), first_.end(), 0U);
-    for (const Junction& junction : network.data().junctions) {
-      if (junction.exit_count > input_limits::roads_at_node) continue;
-      const std::span exits(network.data().exits.data() + junction.first_exit, junction.exit_count);
+    for (std::uint32_t junction = 0; junction < network.data().junctions.size(); ++junction) {
+      const auto exits = network.exits(junction);
+      if (exits.size() > input_limits::roads_at_node) continue;
       for (const DirectedLink to : exits) {
         for (const DirectedLink from : exits) {
           if (goes_on(network, from.reversed(), to))

@@ -57,8 +57,9 @@ double PathFilter::cost_of(DirectedLink link) const {
   const Road& road = network_->road_at(network_->link(link.link).first_vertex);
   const bool minor = road.restricted || road.road_class == RoadClass::service ||
                      road.road_class == RoadClass::track;
-  double against = network_->allowed(link) ? 0.0 : parameters_->wrong_way;
-  if (network_->doubted(link.link)) against = parameters_->doubted_way;
+  const double against = network_->doubted(link.link) ? parameters_->doubted_way
+                         : network_->allowed(link)    ? 0.0
+                                                      : parameters_->wrong_way;
   return against + (minor ? parameters_->minor_road : 0.0);
 }
 

@@ -36,8 +36,7 @@ ParameterTable<CarDescription> parameter_table(const CarDescription&) {
        "on a car of the same name."},
       {"side_of_road", one_of<&P::side_of_road>, usual,
        "Side on which traffic keeps. With \"by-map\" it is that of most opposite carriageways of "
-       "the "
-       "map, or right."},
+       "the map, or right."},
       {"rear_axle_distance", &P::rear_axle_distance, -5.0, 5.0, "m", usual,
        "Distance from the rear axle forward to the body's origin, the inertial unit."},
       {"rear_axle_distance_sigma", &P::rear_axle_distance_sigma, above_zero, 5.0, "m", usual,

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mapmatch/matcher.h"
 #include "tests/mapmatch/default_rule_bases.h"
 #include "tests/mapmatch/simulated_drive.h"
@@ -124,6 +126,18 @@ TEST(OneWayCheck, AHeapOfWaysIsLeftAlone) {
   const RoadNetwork network = map.network();
   EXPECT_EQ(network.size(), static_cast<std::size_t>(ways));
   EXPECT_EQ(network.one_way_checks().to_left + network.one_way_checks().to_right, 0U);
+}
+
+TEST(OneWayCheck, ANodeOfManyWaysIsLeftAlone) {
+  SmallMap map;
+  map.node(1, 0, 0);
+  constexpr std::int64_t ways = 20'000;
+  for (std::int64_t i = 2; i <= ways; ++i) {
+    const double angle = 1e-3 * static_cast<double>(i);
+    map.node(i, 500.0 * std::cos(angle), 500.0 * std::sin(angle)).way(i, {i, 1}, carriageway());
+  }
+  const RoadNetwork network = map.network();
+  EXPECT_FALSE(doubted(network, 2)) << "no traffic leaves the node, but too many ways meet there";
 }
 
 TEST(OneWayCheck, AContradictedDirectionIsDrivenBothWays) {

@@ -18,7 +18,7 @@
 namespace maploop::match {
 namespace {
 
-// What is said of one track; kilometres are those of its route.
+// This is printed of one track: what became of its fixes, and how long its route is.
 struct TrackResult {
   MatchSummary counts;
   double kilometres = 0.0;
@@ -40,7 +40,7 @@ std::string line(const std::string& name, const TrackResult& r) {
   };
   return fmt::format("{:<30} {:>8} {:>8.2f} {:>8.2f} {:>8.2f} {:>9.2f}\n",
                      name.size() <= 30 ? name : "..." + name.substr(name.size() - 27),
-                     r.counts.fixes, percent(r.counts.matched), percent(r.counts.doubtful),
+                     r.counts.fixes, percent(r.counts.matched), 100.0 * r.counts.doubtful_share(),
                      percent(r.counts.off_road), r.kilometres);
 }
 

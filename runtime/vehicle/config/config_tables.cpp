@@ -175,8 +175,8 @@ ParameterTable<MapParameters> parameter_table(const MapParameters&) {
        "corrects the filter; \"hard-reset\": position and azimuth become the matched ones."},
       {"side_of_road", one_of<&P::side_of_road>, usual,
        "Side on which traffic keeps, if it is not that of [vehicle]. A one-way street whose "
-       "opposite "
-       "carriageway is on the wrong side may be driven both ways, as its direction is doubtful."},
+       "opposite carriageway is on the wrong side may be driven both ways, as its direction is "
+       "doubtful."},
       {"rules", &P::rules, usual,
        "Folder of fuzzy rule bases (.fll); the path starts from this file's folder. Empty: those "
        "that are shipped."},
