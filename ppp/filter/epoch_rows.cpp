@@ -45,15 +45,18 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
                                   const UnobstructedCn0& strength, FilterState& state,
                                   std::vector<SatelliteReport>& reports) {
   rows_.clear();
-  rows_.reserve(3 * usual_satellites);  // code, phase, Doppler
+  rows_.reserve(5 * usual_satellites);  // codes and phases of two carriers, Doppler
   const bool use_doppler = parameters_.motion == Motion::kinematic;
   if (use_doppler) set_drift(tracked, state);
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     const Tracked& t = tracked[i];
     if (!t.code_good) continue;
     const double factor = variance_factor(t, strength);
-    rows_.push_back(code_row(i, t, factor, reference_system, state));
-    if (t.phase_good) add_phase_row(i, t, factor, reference_system, state, reports);
+    for (const Combination c : {Combination::range, Combination::ionosphere}) {
+      if (c == Combination::ionosphere && !t.measurement.dual()) continue;
+      rows_.push_back(code_row(i, t, c, factor, reference_system, state));
+      if (t.phase_good) add_phase_row(i, t, c, factor, reference_system, state, reports);
+    }
     if (!use_doppler || !has_doppler(t)) continue;
     Row doppler;
     doppler.kind = RowKind::doppler;
@@ -80,71 +83,79 @@ void EpochRows::set_drift(const std::vector<Tracked>& tracked, FilterState& stat
 
 // Makes the row of a code (`sign` 1), which the ionosphere delays, or of a phase (-1), which it
 // advances; y lacks what was measured.
-Row EpochRows::range_row(std::size_t i, const Tracked& t, double sign, int reference_system,
-                         const FilterState& state) const {
+Row EpochRows::range_row(std::size_t i, const Tracked& t, Combination c, double sign,
+                         int reference_system, const FilterState& state) const {
   const Measurement& m = t.measurement;
   const PredictedRange& p = t.predicted;
   const int system = static_cast<int>(m.satellite.system);
   Row row;
   row.tracked = i;
-  for (int k = 0; k < 3; ++k) row.add(S::position + k, -p.to_satellite[k]);
-  row.add(S::clock, 1.0);
-  if (system != reference_system) row.add(S::system_offset + system, 1.0);
-  row.add(S::zenith_wet, p.wet_mapping);
-  if (parameters_.gradients) {
-    const double slope = p.wet_mapping / std::tan(p.elevation);
-    row.add(S::gradient_north, slope * std::cos(p.azimuth));
-    row.add(S::gradient_east, slope * std::sin(p.azimuth));
+  row.combination = c;
+  if (c == Combination::range) {
+    for (int k = 0; k < 3; ++k) row.add(S::position + k, -p.to_satellite[k]);
+    row.add(S::clock, 1.0);
+    if (system != reference_system) row.add(S::system_offset + system, 1.0);
+    row.add(S::zenith_wet, p.wet_mapping);
+    if (parameters_.gradients) {
+      const double slope = p.wet_mapping / std::tan(p.elevation);
+      row.add(S::gradient_north, slope * std::cos(p.azimuth));
+      row.add(S::gradient_east, slope * std::sin(p.azimuth));
+    }
+    if (const int error = state.find(m.satellite, Part::range_error); error >= 0)
+      row.add(error, 1.0);
   }
-  if (const int error = state.find(m.satellite, Part::range_error); error >= 0) row.add(error, 1.0);
-  if (!m.dual()) {
-    const double own = sign * ionosphere_factor(m.first), slant = own * p.ionosphere_slant;
-    row.add(S::zenith_ionosphere, slant);
-    row.add(S::ionosphere_north, slant * p.ionosphere_distance * std::cos(p.azimuth));
-    row.add(S::ionosphere_east, slant * p.ionosphere_distance * std::sin(p.azimuth));
-    row.add(state.find(m.satellite, Part::ionosphere), own);
-  }
+  const double own = sign * m.ionosphere(c), slant = own * p.ionosphere_slant;
+  row.add(S::zenith_ionosphere, slant);
+  row.add(S::ionosphere_north, slant * p.ionosphere_distance * std::cos(p.azimuth));
+  row.add(S::ionosphere_east, slant * p.ionosphere_distance * std::sin(p.azimuth));
+  row.add(state.find(m.satellite, Part::ionosphere), own);
+  if (sign > 0.0 && c == Combination::ionosphere) row.add(S::code_difference + system, 1.0);
   // This is what the state predicts besides the geometric range, which is already computed at the
   // state's own position.
   double predicted = 0.0;
-  for (std::size_t k = 3; k < static_cast<std::size_t>(row.count); ++k) {
+  const std::size_t first = c == Combination::range ? 3 : 0;
+  for (std::size_t k = first; k < static_cast<std::size_t>(row.count); ++k) {
     predicted += row.h[k] * state.x()[row.indices[k]];
   }
-  row.y = -predicted - (sign > 0.0 ? p.code(m) : p.phase(m));
+  row.y = -predicted - (sign > 0.0 ? p.code(m, c) : p.phase(m, c));
   return row;
 }
 
-Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int reference_system,
-                        const FilterState& state) const {
+Row EpochRows::code_row(std::size_t i, const Tracked& t, Combination c, double factor,
+                        int reference_system, FilterState& state) const {
   const Measurement& m = t.measurement;
-  Row row = range_row(i, t, 1.0, reference_system, state);
+  const int difference = S::code_difference + static_cast<int>(m.satellite.system);
+  if (c == Combination::ionosphere && state.P()(difference, difference) == 0.0)
+    state.set(difference, 0.0, parameters_.code_difference_sigma);
+  Row row = range_row(i, t, c, 1.0, reference_system, state);
   row.kind = RowKind::code;
   const double glonass =
       m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1.0;
-  const double one =
-      m.dual() ? parameters_.code_sigma * m.noise_factor() : parameters_.single_code_sigma;
-  const double sigma = one * glonass;
+  const double sigma = m.sigma(c, parameters_.code_sigma, parameters_.common_code_sigma) * glonass;
   const double sine = std::sin(t.predicted.elevation);
   const double direct = sigma * sigma / (sine * sine), all = sigma * sigma * factor * t.level;
-  const double noise =
-      state.find(m.satellite, Part::range_error) < 0 ? t.predicted.satellite.sigma : 0.0;
+  const bool range = c == Combination::range;
+  const bool noisy_orbit = range && state.find(m.satellite, Part::range_error) < 0;
+  const double noise = noisy_orbit ? t.predicted.satellite.sigma : 0.0;
   row.variance = all * t.code_inflation + noise * noise;  // (11) of METHOD.md
   row.sigma = std::sqrt(all + noise * noise);
-  row.delay = std::sqrt(std::max(0.0, all - direct) / 2.0);
-  row.y += m.code() - row.delay;  // (7) of METHOD.md
+  if (range) row.delay = std::sqrt(std::max(0.0, all - direct) / 2.0);
+  row.y += m.code(c) - row.delay;  // (7) of METHOD.md
   return row;
 }
 
-void EpochRows::add_phase_row(std::size_t i, const Tracked& t, double factor, int reference_system,
-                              FilterState& state, std::vector<SatelliteReport>& reports) {
+void EpochRows::add_phase_row(std::size_t i, const Tracked& t, Combination c, double factor,
+                              int reference_system, FilterState& state,
+                              std::vector<SatelliteReport>& reports) {
   const Measurement& m = t.measurement;
-  Row row = range_row(i, t, -1.0, reference_system, state);
+  Row row = range_row(i, t, c, -1.0, reference_system, state);
   row.kind = RowKind::phase;
-  row.y += m.phase();
-  int index = state.find(m.satellite, Part::ambiguity);
+  row.y += m.phase(c);
+  const Part part = c == Combination::range ? Part::ambiguity : Part::ionosphere_ambiguity;
+  int index = state.find(m.satellite, part);
   row.new_ambiguity = index < 0;
   if (row.new_ambiguity) {
-    index = state.add(m.satellite, Part::ambiguity, row.y, parameters_.ambiguity_sigma);
+    index = state.add(m.satellite, part, row.y, parameters_.ambiguity_sigma);
     if (index < 0) {
       reports[m.report].refused = PppRefusal::too_many;
       return;
@@ -153,9 +164,7 @@ void EpochRows::add_phase_row(std::size_t i, const Tracked& t, double factor, in
   row.add(index, 1.0);
   row.y -= state.x()[index];  // (8) of METHOD.md
   const double shadow = t.predicted.in_shadow ? parameters_.shadow_phase_factor : 1.0;
-  const double one =
-      m.dual() ? parameters_.phase_sigma * m.noise_factor() : parameters_.single_phase_sigma;
-  const double sigma = one * shadow;
+  const double sigma = m.sigma(c, parameters_.phase_sigma, parameters_.common_phase_sigma) * shadow;
   row.variance = sigma * sigma * factor * t.level;  // (12) of METHOD.md
   row.sigma = std::sqrt(row.variance);
   rows_.push_back(row);

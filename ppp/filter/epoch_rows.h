@@ -20,6 +20,7 @@ enum class RowKind { code, phase, doppler };
 struct Row : LinearRow {
   RowKind kind = RowKind::code;
   std::size_t tracked = 0;  // index into the epoch's tracked satellites
+  Combination combination = Combination::range;
   double sigma = 0.0;
   double delay = 0.0;  // m, by which y has been shortened, because a reflection is expected
   bool active = true;
@@ -41,12 +42,13 @@ class EpochRows {
 
  private:
   // `factor` scales the satellite's variances relative to the zenith.
-  Row range_row(std::size_t i, const Tracked& t, double sign, int reference_system,
+  Row range_row(std::size_t i, const Tracked& t, Combination c, double sign, int reference_system,
                 const FilterState& state) const;
-  Row code_row(std::size_t i, const Tracked& t, double factor, int reference_system,
-               const FilterState& state) const;
-  void add_phase_row(std::size_t i, const Tracked& t, double factor, int reference_system,
-                     FilterState& state, std::vector<SatelliteReport>& reports);
+  Row code_row(std::size_t i, const Tracked& t, Combination c, double factor, int reference_system,
+               FilterState& state) const;
+  void add_phase_row(std::size_t i, const Tracked& t, Combination c, double factor,
+                     int reference_system, FilterState& state,
+                     std::vector<SatelliteReport>& reports);
   void set_drift(const std::vector<Tracked>& tracked, FilterState& state);
 
   PppParameters parameters_;

@@ -61,6 +61,11 @@ void FilterState::remove(Satellite satellite, Part part) {
   entries_.pop_back();
 }
 
+void FilterState::remove_ambiguities(Satellite satellite) {
+  remove(satellite, Part::ambiguity);
+  remove(satellite, Part::ionosphere_ambiguity);
+}
+
 void FilterState::update(std::span<const int> indices, std::span<const double> h, double y,
                          double variance, Eigen::VectorXd& dx) {
   const int n = size();

@@ -13,9 +13,10 @@ namespace maploop::ppp {
 
 // The entries that a satellite can have, m.
 enum class Part : std::uint8_t {
-  ionosphere,   // its slant delay on GPS L1 beyond the model's and the zenith entry's
-  range_error,  // of orbit and clock
-  ambiguity,    // of the phase, or of the ionosphere-free combination of two
+  ionosphere,            // its slant delay on GPS L1 beyond the model's and the zenith entry's
+  range_error,           // of orbit and clock
+  ambiguity,             // of the range that the phases measure
+  ionosphere_ambiguity,  // of the ionosphere that two phases measure
 };
 
 struct SatelliteEntry {
@@ -28,7 +29,7 @@ template <class Archive>
 void archive(Archive& ar, SatelliteEntry& e) {
   ar(e.satellite, e.part);
   if constexpr (Archive::loading) {
-    if (e.part > Part::ambiguity) ar.fail("not an entry of a satellite");
+    if (e.part > Part::ionosphere_ambiguity) ar.fail("not an entry of a satellite");
   }
 }
 
@@ -51,8 +52,10 @@ class FilterState {
   // Only a model of the ground's height observes these: what it is too low by everywhere, and here.
   static constexpr int ground_datum = 19, ground_error = 20;  // m
   static constexpr int system_offset = 21;  // m, of each system's clock against the reference's
-  static constexpr int fixed = system_offset + system_count;
-  static constexpr int max_entries = 160;
+  // By half of this the receiver delays each system's second code more than the first, m.
+  static constexpr int code_difference = system_offset + system_count;
+  static constexpr int fixed = code_difference + system_count;
+  static constexpr int max_entries = 240;
   static constexpr int capacity = fixed + max_entries;
 
   FilterState() : x_(capacity), P_(capacity, capacity), column_(capacity) { clear(); }
@@ -76,6 +79,7 @@ class FilterState {
   // Returns the index of the new entry; -1 if there is no room.
   int add(Satellite satellite, Part part, double value, double sigma);
   void remove(Satellite satellite, Part part);
+  void remove_ambiguities(Satellite satellite);
   const std::vector<SatelliteEntry>& entries() const { return entries_; }
 
   // Applies one measurement, y = h dx + noise, with the entries of h at `indices`. `y` refers to

@@ -67,27 +67,34 @@ double ionosphere_factor(const Carrier& carrier) {
   return ratio * ratio;
 }
 
-double Measurement::weight1() const {
-  if (!dual()) return 1.0;  // (2) of METHOD.md
-  const double a = first.frequency * first.frequency, b = second.frequency * second.frequency;
-  return a / (a - b);  // (1) of METHOD.md
+std::array<double, 2> Measurement::weights(Combination c) const {
+  if (!dual()) return {1.0, 0.0};  // (2) of METHOD.md
+  // (1) of METHOD.md
+  return c == Combination::range ? std::array{0.5, 0.5} : std::array{-0.5, 0.5};
 }
 
-double Measurement::weight2() const {
-  return dual() ? 1.0 - weight1() : 0.0;
+double Measurement::code(Combination c) const {
+  const auto [a, b] = weights(c);
+  return a * first.code + b * second.code;
 }
 
-double Measurement::code() const {
-  return weight1() * first.code + weight2() * second.code;
+double Measurement::phase(Combination c) const {
+  const auto [a, b] = weights(c);
+  return a * first.phase + b * second.phase;
 }
 
-double Measurement::phase() const {
-  if (first.phase == 0.0 || (dual() && second.phase == 0.0)) return 0.0;
-  return weight1() * first.phase + weight2() * second.phase;
+double Measurement::ionosphere(Combination c) const {
+  const auto [a, b] = weights(c);
+  return a * ionosphere_factor(first) + (dual() ? b * ionosphere_factor(second) : 0.0);
 }
 
-double Measurement::noise_factor() const {
-  return std::hypot(weight1(), weight2());
+double Measurement::ionosphere_free_weight() const {
+  return -ionosphere(Combination::range) / ionosphere(Combination::ionosphere);
+}
+
+double Measurement::sigma(Combination c, double own, double common) const {
+  const auto [a, b] = weights(c);
+  return std::hypot(own * std::hypot(a, b), common * (a + b));  // (10) of METHOD.md
 }
 
 double Measurement::wide_lane() const {
@@ -122,7 +129,7 @@ std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> 
       c->code -= ephemeris.code_bias(satellite, c->band, c->attribute, t);
     }
   }
-  if (!m.dual() || m.phase() == 0.0) return m;
+  if (!m.dual() || !m.has_phase()) return m;
   const auto bias1 = ephemeris.phase_bias(satellite, m.first.band, m.first.phase_attribute, t);
   const auto bias2 = ephemeris.phase_bias(satellite, m.second.band, m.second.phase_attribute, t);
   m.integer = bias1 && bias2;

@@ -1,4 +1,4 @@
-// Selects which of a satellite's signals are used: two carriers, or one.
+// Selects which of a satellite's signals are used: those of two carriers, or of one.
 #pragma once
 
 #include <array>
@@ -27,6 +27,12 @@ struct Carrier {
 // Returns the ionosphere's delay of a carrier's code relative to that on GPS L1.
 double ionosphere_factor(const Carrier& carrier);
 
+// What is measured of a satellite: its range, by the mean of its carriers, or by its only one; and,
+// with two, its ionosphere, by half the difference of the second and the first carrier. If both
+// carriers are equally noisy, the noise of mean and difference is uncorrelated, and what is the
+// same on both, such as the detour of a reflected signal, is in the mean alone.
+enum class Combination : std::uint8_t { range, ionosphere };
+
 struct Measurement {
   Satellite satellite;
   Carrier first, second;   // second.frequency is 0 with one frequency
@@ -36,12 +42,18 @@ struct Measurement {
   bool dual() const { return second.frequency > 0.0; }
   std::size_t carriers() const { return dual() ? 2 : 1; }
   const Carrier& carrier(std::size_t k) const { return k == 0 ? first : second; }
-  // These are the weights of the ionosphere-free combination.
-  double weight1() const;
-  double weight2() const;
-  double code() const;          // m, ionosphere-free, or of the first carrier
-  double phase() const;         // m, likewise; 0: not measured
-  double noise_factor() const;  // the combination's noise relative to one carrier's
+  // Returns the weights of both carriers in a combination.
+  std::array<double, 2> weights(Combination c) const;
+  double code(Combination c) const;  // m
+  bool has_phase() const { return first.phase != 0.0 && (!dual() || second.phase != 0.0); }
+  double phase(Combination c) const;  // m; only with has_phase()
+  // Returns the ionosphere's delay of the combined code, relative to that on GPS L1.
+  double ionosphere(Combination c) const;
+  // Returns the weight of Combination::ionosphere that, added to the range, removes the ionosphere.
+  double ionosphere_free_weight() const;
+  // Returns the standard deviation of a combination, of which each carrier has an error of its own
+  // (`own`) and both have one in common.
+  double sigma(Combination c, double own, double common) const;
   // These are Melbourne's and Wuebbena's combination of two carriers' codes and phases, m, and the
   // length of its cycle, the wide lane.
   double wide_lane() const;

@@ -49,9 +49,13 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
   constexpr DataChoice range_error_time_choice{"ESBC station with broadcast orbits, 00:00 to 12:00",
                                                "among 1, 4 and 12 hours by the errors",
                                                "PPP of ESBC before 12:00 with broadcast orbits"};
-  constexpr DataChoice single_phase_sigma_choice{"simulated canyons, seeds 1 to 6",
-                                                 "among 0.005, 0.01 and 0.03 m by the errors",
-                                                 "PPP between houses, seeds 1 to 6"};
+  constexpr DataChoice common_sigma_choice{
+      "simulated canyons, seeds 1 to 10, ESBC station and Kamakura car",
+      "codes among 0 to 1 m, phases among 0 to 10 mm, by the errors",
+      "PPP between houses, seeds 1 to 10; PPP of ESBC and of Kamakura"};
+  constexpr DataChoice measured_ionosphere_walk_choice{
+      "simulated canyons, seeds 1 to 10", "among 3, 6, 10, 20 and 30 mm/sqrt(s) by the errors",
+      "PPP between houses, seeds 1 to 10"};
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"motion", one_of<&P::motion>, usual, "Whether the receiver moves."},
       {"systems", &P::systems, usual,
@@ -62,11 +66,18 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"cn0_mask", &P::cn0_mask, 0.0, 100.0, "dB-Hz", usual,
        "Signals of a lower carrier-to-noise density are not used."},
       {"code_sigma", &P::code_sigma, smallest, any_sigma, "m", expert,
-       "Standard deviation of the code on one carrier at the zenith. Combinations of carriers "
-       "enlarge it.",
+       "Standard deviation of the code of one carrier at the zenith, of what is its own.",
        code_sigma_choice},
-      {"phase_sigma", &P::phase_sigma, smallest, any_sigma, "m", expert, "The same for the phase.",
-       phase_sigma_choice},
+      {"common_code_sigma", &P::common_code_sigma, 0.0, any_sigma, "m", expert,
+       "Standard deviation of what the codes of a satellite's carriers have in common besides, "
+       "such "
+       "as reflections.",
+       common_sigma_choice},
+      {"phase_sigma", &P::phase_sigma, smallest, any_sigma, "m", expert,
+       "Standard deviation of the phase of one carrier, of what is its own.", phase_sigma_choice},
+      {"common_phase_sigma", &P::common_phase_sigma, 0.0, any_sigma, "m", expert,
+       "Standard deviation of what the phases of a satellite's carriers have in common besides.",
+       common_sigma_choice},
       {"shadow_phase_factor", &P::shadow_phase_factor, 1.0, 1000.0, "1", expert,
        "Factor on phase_sigma for satellites in the earth's shadow, whose attitude is not known."},
       {"doppler_sigma", &P::doppler_sigma, smallest, any_sigma, "m/s", expert,
@@ -140,6 +151,10 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Random walk of the error of the ionosphere's model at the zenith."},
       {"slant_ionosphere_walk", &P::slant_ionosphere_walk, 0.0, 1.0, "m/sqrt(s)", expert,
        "Random walk of a satellite's own error of the ionosphere's model."},
+      {"measured_ionosphere_walk", &P::measured_ionosphere_walk, 0.0, 1.0, "m/sqrt(s)", expert,
+       "The same for a satellite whose ionosphere is measured by two carriers: a larger walk costs "
+       "little there.",
+       measured_ionosphere_walk_choice},
       {"slant_ionosphere_share", &P::slant_ionosphere_share, smallest, 1.0, "1", expert,
        "Share of the standard deviation of the ionosphere's model that is each satellite's own."},
       {"ionosphere_gradient_share", &P::ionosphere_gradient_share, smallest, 100.0, "1", expert,
@@ -157,6 +172,9 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        ambiguity_walk_choice},
       {"system_offset_walk", &P::system_offset_walk, 0.0, 1000.0, "m/sqrt(s)", expert,
        "Random walk of the clocks of the systems against each other."},
+      {"code_difference_sigma", &P::code_difference_sigma, smallest, 1e6, "m", expert,
+       "Standard deviation of half the receiver's delay of a system's second code beyond its "
+       "first."},
       {"source_change_sigma", &P::source_change_sigma, 0.0, any_sigma, "m", expert,
        "Standard deviation of the difference between the ranges by two sources of orbits and "
        "clocks. It is added to the ambiguity when a satellite's source changes."},
@@ -209,8 +227,6 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Departure of the phase from the integral of the Doppler shift, on one frequency, that is a "
        "slip. It grows by the same per second."},
 
-      {"start_code_sigma", &P::start_code_sigma, smallest, any_sigma, "m", expert,
-       "Least code_sigma for the first position."},
       {"start_model_variance", &P::start_model_variance, 0.0, 1e6, "m^2", expert,
        "Variance of a range that is added for the models in the first position."},
       {"start_outlier_sigmas", &P::start_outlier_sigmas, 0.1, any_gate, "1", expert,
@@ -219,10 +235,6 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Share of the satellites that may be left out of the first position."},
       {"start_largest_residual", &P::start_largest_residual, 0.1, any_gate, "1", expert,
        "Residual in standard deviations beyond which there is no first position."},
-      {"single_code_sigma", &P::single_code_sigma, smallest, any_sigma, "m", expert,
-       "code_sigma of a satellite that is measured on one frequency, mostly by a cheap receiver."},
-      {"single_phase_sigma", &P::single_phase_sigma, smallest, any_sigma, "m", expert,
-       "phase_sigma of a satellite that is measured on one frequency.", single_phase_sigma_choice},
 
       {"integers", &P::integers, usual,
        "Whether ambiguities are resolved to integers where the products contain the biases of the "

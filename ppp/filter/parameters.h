@@ -35,8 +35,10 @@ struct PppParameters {
   std::string systems = "GREC";              // those used, by their letters in RINEX (satellite.h)
   double elevation_mask = 7.0;               // deg
   double cn0_mask = 0.0;                     // dB-Hz
-  double code_sigma = 0.4;                   // m
-  double phase_sigma = 0.003;                // m
+  double code_sigma = 0.4;                   // m, of each carrier's own
+  double common_code_sigma = 0.9;            // m, of the error that the carriers have in common
+  double phase_sigma = 0.003;                // m, of each carrier's own
+  double common_phase_sigma = 0.006;         // m
   double shadow_phase_factor = 4.0;          // on phase_sigma in the earth's shadow
   double doppler_sigma = 0.10;               // m/s
   double glonass_code_factor = 3.0;          // on code_sigma for GLONASS
@@ -66,6 +68,7 @@ struct PppParameters {
   double carried_scale_time = 300.0;         // s
   double ionosphere_walk = 1e-3;             // m/sqrt(s), at the zenith
   double slant_ionosphere_walk = 3e-3;       // m/sqrt(s)
+  double measured_ionosphere_walk = 1e-2;    // m/sqrt(s)
   double slant_ionosphere_share = 0.5;       // of the model's sigma that is each satellite's own
   double ionosphere_gradient_share = 0.5;    // for each 1000 km
   double unknown_bias_sigma = 5.0;           // m
@@ -73,6 +76,7 @@ struct PppParameters {
   double ambiguity_sigma = 60.0;             // m
   double ambiguity_walk = 1.1e-4;            // m/sqrt(s)
   double system_offset_walk = 1e-3;          // m/sqrt(s)
+  double code_difference_sigma = 10.0;       // m
   double source_change_sigma = 2.0;          // m
   double clock_sigma = 100.0;                // m
   double drift_sigma = 100.0;                // m/s
@@ -97,15 +101,10 @@ struct PppParameters {
   double slip_doppler = 0.5;         // m
 
   // --- The first position
-  double start_code_sigma = 1.0;         // m
   double start_model_variance = 0.01;    // m^2
   double start_outlier_sigmas = 4.0;     // residual beyond which a code is left out
   double start_outlier_share = 0.25;     // of the satellites, which may be left out
   double start_largest_residual = 10.0;  // in sigmas; beyond it there is no first position
-
-  // --- Satellites of one frequency
-  double single_code_sigma = 1.0;    // m
-  double single_phase_sigma = 0.01;  // m
 
   // --- Integers
   bool integers = true;                  // whether ambiguities are resolved to integers

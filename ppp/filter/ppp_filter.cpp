@@ -103,19 +103,14 @@ void PppFilter::begin_solution(GpsTime t) {
 
 // Starts at a position by code.
 bool PppFilter::start(const std::vector<Measurement>& measured, GpsTime t) {
-  const bool dual =
-      std::any_of(measured.begin(), measured.end(), [](const auto& m) { return m.dual(); });
-  const double usual = dual ? parameters_.code_sigma : parameters_.single_code_sigma;
-  const double sigma = std::max(parameters_.start_code_sigma, usual);
-  const SinglePoint point = solve_single_point(measured, t, state_.x().segment<3>(S::position),
-                                               sigma, parameters_, model_);
+  const SinglePoint point =
+      solve_single_point(measured, t, state_.x().segment<3>(S::position), parameters_, model_);
   if (!point.failure.empty()) {
     solution_.message = "no first position: " + point.failure;
     return false;
   }
   begin_state(state_, point.position, parameters_);
-  const double ratio = sigma / usual;
-  levels_.begin(point.residual_level * ratio * ratio);
+  levels_.begin(point.residual_level);
   started_ = true;
   started_at_ = t;
   return true;

@@ -17,21 +17,18 @@ double shapiro_delay(double satellite_radius, double receiver_radius, double dis
 
 }  // namespace
 
-double PredictedRange::code(const Measurement& m) const {
-  return with_antennas(m) + ionosphere_of(m);
+double PredictedRange::code(const Measurement& m, Combination c) const {
+  return with_antennas(m.weights(c)) + m.ionosphere(c) * ionosphere.value;
 }
 
-double PredictedRange::phase(const Measurement& m) const {
-  const double turn = m.weight1() * m.first.wavelength + m.weight2() * m.second.wavelength;
-  return with_antennas(m) + wind_up * turn - ionosphere_of(m);
+double PredictedRange::phase(const Measurement& m, Combination c) const {
+  const auto weights = m.weights(c);
+  const double turn = weights[0] * m.first.wavelength + weights[1] * m.second.wavelength;
+  return with_antennas(weights) + wind_up * turn - m.ionosphere(c) * ionosphere.value;
 }
 
-double PredictedRange::with_antennas(const Measurement& m) const {
-  return range + m.weight1() * antennas[0] + m.weight2() * antennas[1];
-}
-
-double PredictedRange::ionosphere_of(const Measurement& m) const {
-  return m.dual() ? 0.0 : ionosphere_factor(m.first) * ionosphere.value;
+double PredictedRange::with_antennas(const std::array<double, 2>& weights) const {
+  return (weights[0] + weights[1]) * range + weights[0] * antennas[0] + weights[1] * antennas[1];
 }
 
 void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {

@@ -50,14 +50,13 @@ struct PredictedRange {
   bool in_shadow = false;
   bool calibrated = false;  // the satellite's phase centres are those of its own antenna
 
-  // Returns the range of the measurement's code and phase, m; of two carriers, of their
-  // ionosphere-free combination, otherwise with the model's ionosphere.
-  double code(const Measurement& m) const;
-  double phase(const Measurement& m) const;
+  // Returns what a combination of the carriers' codes or phases should be, with the model's
+  // ionosphere, m.
+  double code(const Measurement& m, Combination c) const;
+  double phase(const Measurement& m, Combination c) const;
 
  private:
-  double with_antennas(const Measurement& m) const;
-  double ionosphere_of(const Measurement& m) const;
+  double with_antennas(const std::array<double, 2>& weights) const;
 };
 
 class RangeModel {

@@ -91,7 +91,8 @@ void RobustUpdate::readmit(FilterState& state, std::vector<Row>& rows) {
 void RobustUpdate::distrust_phases(FilterState& state, std::vector<Row>& rows) {
   int fit = 0, left_out = 0;
   for (const Row& row : rows) {
-    if (row.kind == RowKind::phase && !row.new_ambiguity) ++(row.active ? fit : left_out);
+    if (row.kind == RowKind::phase && !row.new_ambiguity && row.combination == Combination::range)
+      ++(row.active ? fit : left_out);
   }
   if (left_out == 0 || fit > position_unknowns) return;
   for (Row& row : rows) {

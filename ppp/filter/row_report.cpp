@@ -9,8 +9,10 @@ void report_rows(const std::vector<Row>& rows, const Eigen::VectorXd& dx,
     const Tracked& t = tracked[row.tracked];
     SatelliteReport& report = reports[t.measurement.report];
     const double residual = row.residual_after(dx);
+    const bool range = row.combination == Combination::range;
     switch (row.kind) {
       case RowKind::code:
+        if (!range) break;
         report.code_residual = residual;
         levels.add(t.measurement.satellite,
                    residual * residual / (row.sigma * row.sigma) * t.level);
@@ -18,11 +20,13 @@ void report_rows(const std::vector<Row>& rows, const Eigen::VectorXd& dx,
         if (!row.active) report.refused = PppRefusal::code_misfit;
         break;
       case RowKind::phase:
-        report.phase_residual = residual;
-        report.phase_used = row.active;
+        if (range) {
+          report.phase_residual = residual;
+          report.phase_used = row.active;
+        }
         if (row.active) break;
         report.refused = PppRefusal::phase_misfit;
-        if (!row.doubtful) state.remove(t.measurement.satellite, Part::ambiguity);
+        if (!row.doubtful) state.remove_ambiguities(t.measurement.satellite);
         break;
       case RowKind::doppler:
         if (!row.active) report.refused = PppRefusal::doppler_misfit;
@@ -36,7 +40,7 @@ bool disagree(const std::vector<Row>& rows, const Eigen::VectorXd& dx,
   int codes = 0, left_out = 0;
   double sum = 0.0;
   for (const Row& row : rows) {
-    if (row.kind == RowKind::doppler) continue;
+    if (row.kind == RowKind::doppler || row.combination != Combination::range) continue;
     left_out += !row.active;
     if (row.kind != RowKind::code) continue;
     const double residual = row.residual_after(dx);

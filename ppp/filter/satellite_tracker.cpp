@@ -38,7 +38,7 @@ bool set_range_states(FilterState& state, const Tracked& tracked, GpsTime t, dou
                       const PppParameters& parameters) {
   const Satellite satellite = tracked.measurement.satellite;
   const PredictedRange& p = tracked.predicted;
-  if (!tracked.measurement.dual() && state.find(satellite, Part::ionosphere) < 0) {
+  if (state.find(satellite, Part::ionosphere) < 0) {
     const double own = parameters.slant_ionosphere_share * p.ionosphere.sigma;
     const std::optional<double> bias = ephemeris.ionosphere_bias(satellite, t);
     const double sigma = std::hypot(own, bias ? 0.0 : parameters.unknown_bias_sigma);
@@ -85,7 +85,7 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
       continue;
     }
     Tracked tracked{m, *predicted};
-    tracked.code_offset = m.code() - predicted->code(m);
+    tracked.code_offset = m.code(Combination::range) - predicted->code(m, Combination::range);
     tracked.level = levels.of(m.satellite);
     double since = 0.0;
     if (memory.last_code) {
@@ -101,7 +101,7 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
     }
     memory.source = predicted->satellite.source;
     memory.last_code = t;
-    tracked.phase_good = m.phase() != 0.0;
+    tracked.phase_good = m.has_phase();
     if (tracked.phase_good) {
       report.slip = look_for_slip(tracked, interval, parameters, state);
     } else {
@@ -114,7 +114,7 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
     if (!step.slipped) continue;
     const Measurement& m = tracked_[step.tracked].measurement;
     reports[m.report].slip = PppSlip::phase_step;
-    state.remove(m.satellite, Part::ambiguity);
+    state.remove_ambiguities(m.satellite);
   }
   return tracked_;
 }
@@ -131,8 +131,8 @@ PppSlip SatelliteTracker::look_for_slip(const Tracked& tracked, double interval,
   memory.dual = m.dual();
   const PppSlip slip = memory.slips.next(m, since, p.elevation, parameters);
   if (slip != PppSlip::none || away_for_long || other_carriers)
-    state.remove(m.satellite, Part::ambiguity);
-  const double phase_less_range = m.phase() - p.phase(m);
+    state.remove_ambiguities(m.satellite);
+  const double phase_less_range = m.phase(Combination::range) - p.phase(m, Combination::range);
   const bool goes_on =
       memory.epochs_away == 1 && memory.message == p.satellite.message && !other_carriers;
   if (goes_on && slip == PppSlip::none && !m.dual() && interval != 0.0) {

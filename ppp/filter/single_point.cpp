@@ -27,18 +27,40 @@ struct NormalEquations {
   Unknowns right = Unknowns::Zero();
   std::array<bool, system_count> has_clock{};
   int used = 0, unknowns = 3;
-  double sum = 0.0;    // of the squared residuals, in standard deviations
+  // Of the squared residuals, in variances. Those beyond the expected ones come from reflections,
+  // which are in the mean of the carriers and which removing the ionosphere does not amplify.
+  double sum = 0.0;
   double worst = 0.0;  // residual, in standard deviations
   std::size_t worst_at = 0;
 };
 
+// The range by a satellite's code, without the ionosphere where there are two carriers.
+struct RangeByCode {
+  double beyond_predicted, sigma;  // m; sigma at the zenith
+  double amplified = 1.0;          // sigma squared, relative to that of the carriers' mean
+
+  RangeByCode(const Measurement& m, const PredictedRange& p, const PppParameters& parameters) {
+    const auto beyond = [&](Combination c) { return m.code(c) - p.code(m, c); };
+    const auto sigma_of = [&](Combination c) {
+      return m.sigma(c, parameters.code_sigma, parameters.common_code_sigma);
+    };
+    const double mean = sigma_of(Combination::range);
+    beyond_predicted = beyond(Combination::range);
+    sigma = mean;
+    if (!m.dual()) return;
+    const double weight = m.ionosphere_free_weight();
+    beyond_predicted += weight * beyond(Combination::ionosphere);
+    sigma = std::hypot(mean, weight * sigma_of(Combination::ionosphere));
+    amplified = sigma * sigma / (mean * mean);
+  }
+};
+
 class CodePositioning {
  public:
-  CodePositioning(const std::vector<Measurement>& measured, GpsTime t, double code_sigma,
+  CodePositioning(const std::vector<Measurement>& measured, GpsTime t,
                   const PppParameters& parameters, RangeModel& model)
       : measured_(measured),
         t_(t),
-        code_sigma_(code_sigma),
         parameters_(parameters),
         model_(model),
         left_out_(measured.size(), false) {}
@@ -127,11 +149,12 @@ class CodePositioning {
   void add(std::size_t i, const PredictedRange& p, NormalEquations& equations) const {
     const Measurement& m = measured_[i];
     const int system = static_cast<int>(m.satellite.system);
-    const double noise = m.noise_factor() * code_sigma_ / std::sin(p.elevation);
+    const RangeByCode code(m, p, parameters_);
+    const double noise = code.sigma / std::sin(p.elevation);
     const double ionosphere = m.dual() ? 0.0 : p.ionosphere.sigma;
     const double variance = noise * noise + p.satellite.sigma * p.satellite.sigma +
                             ionosphere * ionosphere + parameters_.start_model_variance;
-    const double y = m.code() - p.code(m) - clocks_[system];
+    const double y = code.beyond_predicted - clocks_[system];
     Unknowns h = Unknowns::Zero();
     h.head<3>() = -p.to_satellite;
     h[3 + system] = 1.0;
@@ -139,7 +162,7 @@ class CodePositioning {
     equations.right += h * (y / variance);
     equations.has_clock[static_cast<std::size_t>(system)] = true;
     ++equations.used;
-    equations.sum += y * y / variance;
+    equations.sum += code.amplified * y * y / variance;
     const double normalized = std::abs(y) / std::sqrt(variance);
     if (normalized > equations.worst) {
       equations.worst = normalized;
@@ -149,7 +172,6 @@ class CodePositioning {
 
   const std::vector<Measurement>& measured_;
   GpsTime t_;
-  double code_sigma_;  // m
   const PppParameters& parameters_;
   RangeModel& model_;
   std::vector<bool> left_out_;
@@ -160,9 +182,9 @@ class CodePositioning {
 }  // namespace
 
 SinglePoint solve_single_point(const std::vector<Measurement>& measured, GpsTime t,
-                               const Eigen::Vector3d& near, double code_sigma,
-                               const PppParameters& parameters, RangeModel& model) {
-  return CodePositioning(measured, t, code_sigma, parameters, model).solve(near);
+                               const Eigen::Vector3d& near, const PppParameters& parameters,
+                               RangeModel& model) {
+  return CodePositioning(measured, t, parameters, model).solve(near);
 }
 
 }  // namespace maploop::ppp

@@ -12,15 +12,16 @@ namespace maploop::ppp {
 struct SinglePoint {
   std::string failure;                // why there is no position; empty if there is one
   Eigen::Vector3d position{0, 0, 0};  // m, earth-fixed
-  // This is the variance of the residuals relative to the expected one; 1 without redundancy.
+  // This is the variance of the residuals relative to the expected one of the carriers' mean; 1
+  // without redundancy.
   double residual_level = 1.0;
 };
 
 // Solves by weighted least squares. The largest residual beyond `start_outlier_sigmas` is left out,
 // one satellite at a time, up to `start_outlier_share` of them; the solution fails if one beyond
-// `start_largest_residual` remains. `near` is in m, earth-fixed, and `code_sigma` in m.
+// `start_largest_residual` remains. `near` is in m, earth-fixed.
 SinglePoint solve_single_point(const std::vector<Measurement>& measured, GpsTime t,
-                               const Eigen::Vector3d& near, double code_sigma,
-                               const PppParameters& parameters, RangeModel& model);
+                               const Eigen::Vector3d& near, const PppParameters& parameters,
+                               RangeModel& model);
 
 }  // namespace maploop::ppp

@@ -77,7 +77,10 @@ void predict_state(FilterState& state, double interval, const CarriedMotion* car
   }
   for (int i = S::fixed; i < state.size(); ++i) {
     const auto [satellite, part] = state.entries()[static_cast<std::size_t>(i - S::fixed)];
-    if (part == Part::ionosphere) walk(i, parameters.slant_ionosphere_walk);
+    if (part == Part::ionosphere) {
+      const bool measured = state.find(satellite, Part::ionosphere_ambiguity) >= 0;
+      walk(i, measured ? parameters.measured_ionosphere_walk : parameters.slant_ionosphere_walk);
+    }
     if (part == Part::ambiguity)
       walk(i, std::hypot(parameters.ambiguity_walk, ephemeris.error_walk(satellite)));
   }

@@ -16,6 +16,24 @@ constexpr double integer_variance = 1e-4;
 // A single ambiguity is an integer if the others determine it to this, cycles.
 constexpr double own_sigma = 0.05, own_distance = 0.15;
 
+// Returns the ionosphere-free ambiguity, m.
+double value(const FilterState& state, const IntegerCandidate& c) {
+  const auto x = state.x();
+  return c.weights[0] * x[c.indices[0]] + c.weights[1] * x[c.indices[1]];
+}
+
+// Returns the covariance of two ionosphere-free ambiguities, m^2.
+double covariance_of(const FilterState& state, const IntegerCandidate& a,
+                     const IntegerCandidate& b) {
+  const auto P = state.P();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k < 2; ++k)
+      sum += a.weights[i] * b.weights[k] * P(a.indices[i], b.indices[k]);
+  }
+  return sum;
+}
+
 }  // namespace
 
 IntegerFix::IntegerFix(const PppParameters& parameters)
@@ -61,7 +79,9 @@ void IntegerFix::take(const FilterState& state, const std::vector<Tracked>& trac
                       const std::vector<Row>& rows) {
   candidates_.clear();
   candidates_.reserve(usual_satellites);
-  const Row* code = nullptr;  // of the same satellite, it comes before the phase
+  // Of each satellite, the rows of the range come before those of the ionosphere, and each code
+  // before its phase.
+  const Row *code = nullptr, *range = nullptr;
   for (const Row& row : rows) {
     const Tracked& t = tracked[row.tracked];
     const Measurement& m = t.measurement;
@@ -71,16 +91,24 @@ void IntegerFix::take(const FilterState& state, const std::vector<Tracked>& trac
       wide_lanes_.restart(m.satellite);
       known_[m.satellite.slot()] = {};
     }
-    if (!m.integer || !row.active || row.doubtful || code == nullptr) continue;
+    if (row.combination == Combination::range) {
+      range = &row;
+      continue;
+    }
+    const bool both = range != nullptr && range->tracked == row.tracked;
+    if (!m.integer || !both || !range->active || range->doubtful) continue;
+    if (!row.active || row.doubtful) continue;
     const double size = code->sigma * code->sigma;
-    wide_lanes_.add(m, size / (m.noise_factor() * m.noise_factor()), code->variance / size);
+    wide_lanes_.add(m, 2.0 * size, code->variance / size);  // of half the difference of two codes
     IntegerCandidate c;
     c.satellite = m.satellite;
     c.tracked = row.tracked;
-    c.index = state.find(m.satellite, Part::ambiguity);
+    c.indices = {state.find(m.satellite, Part::ambiguity),
+                 state.find(m.satellite, Part::ionosphere_ambiguity)};
+    c.weights = {1.0, m.ionosphere_free_weight()};
     c.length = speed_of_light / (m.first.frequency + m.second.frequency);
     c.wide_factor = m.second.frequency / (m.first.frequency - m.second.frequency);
-    if (c.index >= 0 && t.predicted.calibrated && !t.predicted.in_shadow &&
+    if (t.predicted.calibrated && !t.predicted.in_shadow &&
         t.predicted.elevation >= radians(parameters_.integer_elevation))
       candidates_.push_back(c);
   }
@@ -92,7 +120,6 @@ void IntegerFix::take(const FilterState& state, const std::vector<Tracked>& trac
 void IntegerFix::choose_references(const FilterState& state) {
   differenced_.clear();
   differenced_.reserve(usual_satellites);
-  const auto P = state.P();
   for (std::size_t begin = 0, end = 0; begin < candidates_.size(); begin = end) {
     const System system = candidates_[begin].satellite.system;
     while (end < candidates_.size() && candidates_[end].satellite.system == system) ++end;
@@ -100,7 +127,8 @@ void IntegerFix::choose_references(const FilterState& state) {
     wide_lanes_.resolve(own, parameters_.wide_lane_sigma, parameters_.wide_lane_fraction);
     const auto reference =
         std::min_element(own.begin(), own.end(), [&](const auto& a, const auto& b) {
-          return a.resolved != b.resolved ? a.resolved : P(a.index, a.index) < P(b.index, b.index);
+          return a.resolved != b.resolved ? a.resolved
+                                          : covariance_of(state, a, a) < covariance_of(state, b, b);
         });
     const std::size_t at = begin + static_cast<std::size_t>(reference - own.begin());
     for (std::size_t i = begin; i < end; ++i) {
@@ -118,18 +146,17 @@ const IntegerCandidate& IntegerFix::reference_of(const IntegerCandidate& c) cons
 // Returns how far an ambiguity is beyond its reference, narrow lanes.
 double IntegerFix::difference(const FilterState& state, const IntegerCandidate& c) const {
   const IntegerCandidate& r = reference_of(c);
-  const auto x = state.x();
   // (25) of METHOD.md
-  return (x[c.index] - x[r.index]) / c.length - c.wide_factor * (c.wide_lane - r.wide_lane);
+  return (value(state, c) - value(state, r)) / c.length -
+         c.wide_factor * (c.wide_lane - r.wide_lane);
 }
 
 // Returns the covariance of two such differences, narrow lanes^2.
 double IntegerFix::covariance(const FilterState& state, const IntegerCandidate& a,
                               const IntegerCandidate& b) const {
   const IntegerCandidate &ra = reference_of(a), &rb = reference_of(b);
-  const auto P = state.P();
-  return (P(a.index, b.index) - P(a.index, rb.index) - P(ra.index, b.index) +
-          P(ra.index, rb.index)) /
+  return (covariance_of(state, a, b) - covariance_of(state, a, rb) - covariance_of(state, ra, b) +
+          covariance_of(state, ra, rb)) /
          (a.length * b.length);
 }
 
@@ -173,8 +200,8 @@ int IntegerFix::search(IntegerReport& report) {
 void IntegerFix::condition(const FilterState& state, int count) {
   fixed_ = state;
   dx_.setZero();
-  std::array<int, 2 * Lambda::max_size> indices{};
-  std::array<double, 2 * Lambda::max_size> h{};
+  std::array<int, 4 * Lambda::max_size> indices{};
+  std::array<double, 4 * Lambda::max_size> h{};
   for (int j = 0; j < count; ++j) {
     const auto z = lambda_.transformation().col(lambda_.size() - count + j);
     std::size_t used = 0;
@@ -182,10 +209,12 @@ void IntegerFix::condition(const FilterState& state, int count) {
       const double share = z[static_cast<Eigen::Index>(i)];
       if (share == 0.0) continue;
       const IntegerCandidate& c = candidates_[differenced_[i]];
-      indices[used] = c.index;
-      h[used++] = share / c.length;
-      indices[used] = reference_of(c).index;
-      h[used++] = -share / c.length;
+      for (std::size_t k = 0; k < 2; ++k) {
+        indices[used] = c.indices[k];
+        h[used++] = c.weights[k] * share / c.length;
+        indices[used] = reference_of(c).indices[k];
+        h[used++] = -reference_of(c).weights[k] * share / c.length;
+      }
     }
     fixed_.update(std::span(indices).first(used), std::span(h).first(used),
                   integers_[j] - z.dot(real_), integer_variance, dx_);

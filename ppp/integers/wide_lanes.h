@@ -2,6 +2,7 @@
 // carriers, from codes and phases alone (Melbourne-Wuebbena).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -14,8 +15,11 @@ namespace maploop::ppp {
 // An ambiguity that can be an integer.
 struct IntegerCandidate {
   Satellite satellite;
-  std::size_t tracked = 0;    // index into the epoch's tracked satellites
-  int index = 0;              // into the filter's state
+  std::size_t tracked = 0;  // index into the epoch's tracked satellites
+  // The ionosphere-free ambiguity is the sum of that of the range and of that of the ionosphere, at
+  // these indices of the filter's state, by these weights.
+  std::array<int, 2> indices{};
+  std::array<double, 2> weights{};
   double length = 0.0;        // m, of the narrow lane: an integer's effect on the ambiguity
   double wide_factor = 0.0;   // narrow lanes for each wide lane
   double wide_lane = 0.0;     // cycles, apart from a number that a system's satellites share
