@@ -95,8 +95,9 @@ void IntegerFix::take(const FilterState& state, const std::vector<Tracked>& trac
       range = &row;
       continue;
     }
-    const bool both = range != nullptr && range->tracked == row.tracked;
-    if (!m.integer || !both || !range->active || range->doubtful) continue;
+    if (!m.integer || code == nullptr || range == nullptr || range->tracked != row.tracked)
+      continue;
+    if (!range->active || range->doubtful) continue;
     if (!row.active || row.doubtful) continue;
     const double size = code->sigma * code->sigma;
     wide_lanes_.add(m, 2.0 * size, code->variance / size);  // of half the difference of two codes
