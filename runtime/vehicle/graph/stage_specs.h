@@ -112,7 +112,7 @@ inline constexpr StageSpec ppp{.name = "ppp",
                                .min_rate = 0.5,
                                .max_rate = 21.0,
                                .saved = true,
-                               .memory = {.fixed = 3'000'000}};
+                               .memory = {.fixed = 5'000'000}};
 inline constexpr StageSpec fusion{.name = "fusion",
                                   .runs = "reduced-IMU filter",
                                   .released = "its period",
