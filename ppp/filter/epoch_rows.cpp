@@ -39,7 +39,26 @@ double variance_factor(const Tracked& t, const UnobstructedCn0& strength) {
   return std::pow(10.0, sigma_delta * missing / 10.0) / (sine * sine);  // (10) of METHOD.md
 }
 
+// Adds the entries of the ionosphere's delay, of which `share` is that on GPS L1.
+void add_ionosphere(LinearRow& row, const Tracked& t, double share, const FilterState& state) {
+  const PredictedRange& p = t.predicted;
+  const double slant = share * p.ionosphere_slant;
+  row.add(S::zenith_ionosphere, slant);
+  row.add(S::ionosphere_north, slant * p.ionosphere_distance * std::cos(p.azimuth));
+  row.add(S::ionosphere_east, slant * p.ionosphere_distance * std::sin(p.azimuth));
+  row.add(state.find(t.measurement.satellite, Part::ionosphere), share);
+}
+
 }  // namespace
+
+double ionosphere_of(const Tracked& t, const FilterState& state) {
+  LinearRow row;
+  add_ionosphere(row, t, 1.0, state);
+  double delay = t.predicted.ionosphere.value;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k)
+    delay += row.h[k] * state.x()[row.indices[k]];
+  return delay;
+}
 
 std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int reference_system,
                                   const UnobstructedCn0& strength, FilterState& state,
@@ -104,11 +123,7 @@ Row EpochRows::range_row(std::size_t i, const Tracked& t, Combination c, double 
     if (const int error = state.find(m.satellite, Part::range_error); error >= 0)
       row.add(error, 1.0);
   }
-  const double own = sign * m.ionosphere(c), slant = own * p.ionosphere_slant;
-  row.add(S::zenith_ionosphere, slant);
-  row.add(S::ionosphere_north, slant * p.ionosphere_distance * std::cos(p.azimuth));
-  row.add(S::ionosphere_east, slant * p.ionosphere_distance * std::sin(p.azimuth));
-  row.add(state.find(m.satellite, Part::ionosphere), own);
+  add_ionosphere(row, t, sign * m.ionosphere(c), state);
   if (sign > 0.0 && c == Combination::ionosphere) row.add(S::code_difference + system, 1.0);
   // This is what the state predicts besides the geometric range, which is already computed at the
   // state's own position.

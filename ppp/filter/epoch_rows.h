@@ -28,6 +28,9 @@ struct Row : LinearRow {
   bool doubtful = false;       // it is not active, but other phases may be the wrong ones instead
 };
 
+// Returns the ionosphere's delay on GPS L1 that the state gives a satellite, m.
+double ionosphere_of(const Tracked& t, const FilterState& state);
+
 class EpochRows {
  public:
   explicit EpochRows(const PppParameters& parameters) : parameters_(parameters) {}

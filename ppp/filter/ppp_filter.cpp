@@ -192,6 +192,8 @@ void PppFilter::report(const std::vector<Tracked>& tracked) {
   const ZenithDelay& guess = model_.zenith();
   solution_.zenith_delay = guess.hydrostatic + guess.wet + x[S::zenith_wet];
   solution_.zenith_delay_sigma = std::sqrt(P(S::zenith_wet, S::zenith_wet));
+  for (const Tracked& t : tracked)
+    solution_.satellites[t.measurement.report].ionosphere = ionosphere_of(t, state);
   for (const SatelliteReport& s : solution_.satellites) {
     solution_.satellites_used += s.code_used || s.phase_used;
   }

@@ -23,6 +23,7 @@ struct SatelliteReport {
   bool code_used = false, phase_used = false;        // in the update
   bool integer = false;                              // its ambiguity is an integer in this solution
   double code_residual = 0.0, phase_residual = 0.0;  // m, after the update
+  double ionosphere = 0.0;                           // m, estimated delay on GPS L1; 0: not used
   PppSlip slip = PppSlip::none;                      // why its ambiguity restarted
   PppRefusal refused = PppRefusal::none;             // why it was not used completely
 };

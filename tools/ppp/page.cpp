@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -57,6 +58,26 @@ Plot satellites(const Rows& rows) {
        {"used", [](const auto& s) { return s.satellites_used; }},
        {"integer ambiguities", [](const auto& s) { return s.integers.used; }}},
       Line::Look::steps);
+}
+
+// Whether integers were searched for.
+bool searched(const PppSolution& s) {
+  return s.integers.success_rate > 0.0;
+}
+
+// The figures of the tests that integers must pass; none if they were never searched for.
+std::vector<Plot> integers(const Rows& rows) {
+  const auto is_searched = [](const EpochRow& r) { return r.solved() && searched(*r.solution); };
+  if (std::none_of(rows.begin(), rows.end(), is_searched)) return {};
+  const auto where_searched = [](auto value) {
+    return [value](const PppSolution& s) { return searched(s) ? value(s.integers) : unknown; };
+  };
+  return {over_time(
+              "Squared distance of the second best integers to that of the best", "1, at most 100",
+              rows,
+              {{"ratio", where_searched([](const auto& i) { return std::min(i.ratio, 100.0); })}}),
+          over_time("Squared distance of the best for each ambiguity", "variances", rows,
+                    {{"misfit", where_searched([](const auto& i) { return i.misfit; })}})};
 }
 
 Plot dilution(const Rows& rows) {
@@ -205,6 +226,7 @@ std::string to_page(const std::string& title, const std::vector<std::string>& su
   const Rows rows = epoch_rows(result.solutions);
   const GpsTime first = result.solutions.front().time;
   const double time_of_day = std::fmod(seconds_of_week(first), 86'400.0);
+  const std::vector<Plot> of_integers = integers(rows);
   web::Page page(title);
   page.add("<section class=\"verdict\">");
   for (const std::string& line : summary) page.add(web::paragraph(line));
@@ -224,6 +246,8 @@ std::string to_page(const std::string& title, const std::vector<std::string>& su
       .add({satellites(rows), dilution(rows)})
       .add(heading("Sky, signals and residuals"))
       .add_place("satellites", satellites_json(rows))
+      .add(of_integers.empty() ? "" : heading("Integer ambiguities"))
+      .add(of_integers)
       .add(heading("Troposphere"))
       .add({zenith_delay(rows)})
       .add(heading("Events"))

@@ -54,16 +54,16 @@ json track(const std::string& name, const Positions& positions, const Eigen::Vec
   return j;
 }
 
-// Returns 0 if all of a satellite was used, 1 if a part was used, and otherwise the reason from 2
-// on.
+// Returns 0 if a satellite was used with an integer ambiguity, 1 if all of it was used, 2 if a part
+// was used, and otherwise the reason from 3 on.
 std::size_t state_of(const SatelliteReport& r) {
-  if (r.code_used && r.phase_used) return 0;
-  if (r.code_used || r.phase_used) return 1;
-  return 1 + std::max<std::size_t>(1, static_cast<std::size_t>(r.refused));
+  if (r.code_used && r.phase_used) return r.integer ? 0 : 1;
+  if (r.code_used || r.phase_used) return 2;
+  return 2 + std::max<std::size_t>(1, static_cast<std::size_t>(r.refused));
 }
 
 json states() {
-  json list{"used", "used in part"};
+  json list{"used, integer ambiguity", "used", "used in part"};
   for (std::size_t i = 1; i < count_of<PppRefusal>; ++i)
     list.push_back(to_string(static_cast<PppRefusal>(i)));
   return list;
@@ -73,6 +73,7 @@ json states() {
 struct History {
   json at = json::array(), azimuth = json::array(), elevation = json::array();
   json cn0 = json::array(), code = json::array(), phase = json::array();
+  json ionosphere = json::array();
   json spans = json::array(), slips = json::array();
   double last = -1.0;  // time of its last span's end
   std::size_t state = 0;
@@ -84,6 +85,7 @@ struct History {
     cn0.push_back(in_units(r.cn0 > 0.0 ? r.cn0 : unknown, 0.1));
     code.push_back(in_units(r.code_used ? r.code_residual : unknown, 1e-3));
     phase.push_back(in_units(r.phase_used ? r.phase_residual : unknown, 1e-3));
+    ionosphere.push_back(in_units(r.ionosphere != 0.0 ? r.ionosphere : unknown, 1e-3));
   }
 
   // `before`: the time of the epoch before.
@@ -103,8 +105,8 @@ struct History {
     return {{"name", to_string(satellite)},  {"at", std::move(at)},
             {"azimuth", std::move(azimuth)}, {"elevation", std::move(elevation)},
             {"cn0", std::move(cn0)},         {"code", std::move(code)},
-            {"phase", std::move(phase)},     {"spans", std::move(spans)},
-            {"slips", std::move(slips)}};
+            {"phase", std::move(phase)},     {"ionosphere", std::move(ionosphere)},
+            {"spans", std::move(spans)},     {"slips", std::move(slips)}};
   }
 };
 

@@ -151,16 +151,15 @@ std::string to_kml(const Solutions& solutions) {
 
 std::string to_residual_csv(const Solutions& solutions) {
   std::string text =
-      "gps_time,satellite,azimuth_deg,elevation_deg,cn0_dbhz,code_used,phase_used,integer,code_"
-      "residual_m,"
-      "phase_residual_m,slip,refused\n";
+      "gps_time,satellite,azimuth_deg,elevation_deg,cn0_dbhz,code_used,phase_used,integer,"
+      "code_residual_m,phase_residual_m,ionosphere_m,slip,refused\n";
   for (const PppSolution& s : solutions) {
     const std::string stamp = format_gps_time(s.time);
     for (const SatelliteReport& r : s.satellites) {
-      text += fmt::format("{},{},{:.2f},{:.2f},{:.1f},{:d},{:d},{:d},{:.4f},{:.5f},{},{}\n", stamp,
-                          to_string(r.satellite), degrees(r.azimuth), degrees(r.elevation), r.cn0,
-                          r.code_used, r.phase_used, r.integer, r.code_residual, r.phase_residual,
-                          to_string(r.slip), to_string(r.refused));
+      text += fmt::format("{},{},{:.2f},{:.2f},{:.1f},{:d},{:d},{:d},{:.4f},{:.5f},{:.4f},{},{}\n",
+                          stamp, to_string(r.satellite), degrees(r.azimuth), degrees(r.elevation),
+                          r.cn0, r.code_used, r.phase_used, r.integer, r.code_residual,
+                          r.phase_residual, r.ionosphere, to_string(r.slip), to_string(r.refused));
     }
   }
   return text;

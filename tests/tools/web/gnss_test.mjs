@@ -39,7 +39,7 @@ before(async () => {
 
 after(() => browser?.close());
 
-testWholePage(() => browser, file, "gnss", { "#positions canvas": 3, "#satellites canvas": 8, "canvas.map": 1, ".contents a": 6 });
+testWholePage(() => browser, file, "gnss", { "#positions canvas": 3, "#satellites canvas": 10, "canvas.map": 1, ".contents a": 7 });
 
 test("the cursor of one plot moves those of all, the values, and the place on the map", async () => {
   const page = await open(browser, file, 1024);

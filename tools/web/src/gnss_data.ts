@@ -11,7 +11,7 @@ export interface Solutions {
   sigma: [Numbers, Numbers, Numbers]; // of the first, east, north, up, m
 }
 
-export const quantities = ["cn0", "code", "phase"] as const;
+export const quantities = ["cn0", "code", "phase", "ionosphere"] as const;
 export type Quantity = (typeof quantities)[number];
 
 export interface Satellite extends Record<Quantity, Numbers> {
@@ -19,13 +19,13 @@ export interface Satellite extends Record<Quantity, Numbers> {
   at: number[]; // indices of Satellites.time
   azimuth: number[]; // 0.1 degrees, as all of these whole numbers
   elevation: number[];
-  // cn0: 0.1 dB-Hz; residuals of code and phase after the update: mm
+  // cn0: 0.1 dB-Hz; residuals of code and phase after the update, ionosphere's delay on GPS L1: mm
   spans: [from: number, to: number, state: number][]; // of all epochs
   slips: [time: number, reason: string][];
 }
 
 export interface Satellites {
   time: number[];
-  states: string[]; // used in full, used in part, and why not
+  states: string[]; // used with an integer ambiguity, in full, in part, and why not
   list: Satellite[];
 }

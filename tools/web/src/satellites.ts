@@ -13,12 +13,19 @@ const systems: Record<string, string> = {
   G: "GPS", R: "GLONASS", E: "Galileo", C: "BeiDou", J: "QZSS", S: "SBAS", I: "NavIC",
 };
 const letters = Object.keys(systems);
-const stateTokens = ["good", "warning", "error"] as const; // used in full, in part, not
+// How a satellite was used; not by the colour alone, but also by how thick its bar is.
+const uses = [
+  { text: "used, integer ambiguity", token: "series-6", thick: 0.9 },
+  { text: "used", token: "good", thick: 0.6 },
+  { text: "in part: code or phase alone", token: "warning", thick: 0.6 },
+  { text: "not used", token: "error", thick: 0.25 },
+] as const;
 
 const shown: Record<Quantity, { title: string; unit: string; scale: number }> = {
   cn0: { title: "C/N0", unit: "dB-Hz", scale: 0.1 },
   code: { title: "Residuals of code", unit: "m", scale: 1e-3 },
   phase: { title: "Residuals of phase", unit: "m", scale: 1e-3 },
+  ionosphere: { title: "Ionosphere's delay on L1", unit: "m", scale: 1e-3 },
 };
 
 // Points drawn by rectangles: there are too many for uPlot's.
@@ -109,9 +116,7 @@ export class SatelliteViews {
   private drawRows(figure: HTMLElement): uPlot {
     const { list } = this.data;
     const legend = element("div", figure, "", "legend");
-    ["used", "in part: code or phase alone", "not used"].forEach((text, state) => {
-      element("span", legend, text).style.setProperty("--key", `var(--${stateTokens[state]})`);
-    });
+    for (const { text, token } of uses) element("span", legend, text).style.setProperty("--key", `var(--${token})`);
     const names = { ...axis(""), size: 56, gap: 2, splits: () => list.map((_, i) => i), values: () => list.map((s) => s.name) };
     const plot = {
       title: "When each satellite was used", x_label: "GPS time", y_label: "",
@@ -136,8 +141,8 @@ export class SatelliteViews {
       ctx.globalAlpha = this.isShown(s) ? 1 : 0.15;
       for (const [from, to, state] of s.spans) {
         const left = chart.valToPos(from, "x", true);
-        ctx.fillStyle = ink(stateTokens[Math.min(state, 2)]!);
-        const thick = state > 1 ? 0.25 : 0.6; // not by the colour alone
+        const { token, thick } = uses[Math.min(state, uses.length - 1)]!;
+        ctx.fillStyle = ink(token);
         ctx.fillRect(left, middle - (thick * high) / 2, Math.max(chart.valToPos(to, "x", true) - left, 1.5), thick * high);
       }
       ctx.fillStyle = ink("ink");
@@ -265,8 +270,8 @@ export class SatelliteViews {
       const value = (q: Quantity, digits: number) => (s[q][i] == null ? "–" : (s[q][i]! * shown[q].scale).toFixed(digits));
       const degrees = (tenths: number) => (s.elevation[i] === 0 ? "–" : `${(tenths / 10).toFixed(0)}°`); // no orbit: 0
       return [[name, degrees(s.elevation[i]!), degrees((s.azimuth[i]! + 3600) % 3600), value("cn0", 0),
-        value("code", 2), value("phase", 3), states[state] ?? "–"]];
+        value("code", 2), value("phase", 3), value("ionosphere", 2), states[state] ?? "–"]];
     });
-    table(this.values, [this.timeline.text(at), "elevation", "azimuth", "dB-Hz", "code, m", "phase, m", "used, or why not"], rows);
+    table(this.values, [this.timeline.text(at), "elevation", "azimuth", "dB-Hz", "code, m", "phase, m", "ionosphere, m", "used, or why not"], rows);
   }
 }
