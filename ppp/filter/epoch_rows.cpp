@@ -179,9 +179,12 @@ void EpochRows::add_phase_row(std::size_t i, const Tracked& t, Combination c, do
   row.add(index, 1.0);
   row.y -= state.x()[index];  // (8) of METHOD.md
   const double shadow = t.predicted.in_shadow ? parameters_.shadow_phase_factor : 1.0;
-  const double sigma = m.sigma(c, parameters_.phase_sigma, parameters_.common_phase_sigma) * shadow;
-  row.variance = sigma * sigma * factor * t.level;  // (12) of METHOD.md
-  row.sigma = std::sqrt(row.variance);
+  const auto sigma = [&](double inflation) {
+    const double common = parameters_.common_phase_sigma * std::sqrt(inflation);
+    return m.sigma(c, parameters_.phase_sigma, common) * shadow * std::sqrt(factor * t.level);
+  };
+  row.sigma = sigma(1.0);
+  row.variance = sigma(t.phase_inflation) * sigma(t.phase_inflation);  // (12) of METHOD.md
   rows_.push_back(row);
 }
 

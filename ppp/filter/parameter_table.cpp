@@ -43,12 +43,21 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       "among 0, 2, 4 and 8 dB by the errors", "PPP of these seeds"};
   constexpr DataChoice ambiguity_walk_choice{
       "ESBC station", "from changes of post-fit phase residuals over 10 minutes", "PPP of ESBC"};
-  constexpr DataChoice wide_lane_sigma_choice{"ESBC station, 00:00 to 12:00",
-                                              "among 0.15 to 0.6 cycles, without effect",
-                                              "PPP of ESBC before 12:00"};
+  constexpr DataChoice wide_lane_sigma_choice{
+      "ESBC station, 00:00 to 12:00 and as a vehicle",
+      "among 0, 0.05, 0.1 and 0.15 cycles by the time to 0.1 m and the fixed epochs",
+      "PPP of ESBC before 12:00"};
+  constexpr DataChoice integer_success_choice{
+      "ESBC station, 00:00 to 12:00",
+      "among 0.9 to 0.999 by the time to 0.1 m, none with wrong integers",
+      "PPP of ESBC before 12:00"};
   constexpr DataChoice range_error_time_choice{"ESBC station with broadcast orbits, 00:00 to 12:00",
                                                "among 1, 4 and 12 hours by the errors",
                                                "PPP of ESBC before 12:00 with broadcast orbits"};
+  constexpr DataChoice phase_correlation_choice{
+      "simulated canyons, seeds 1 to 10, ESBC station before 12:00 and Kamakura car",
+      "with `common_phase_sigma` among ten pairs of 1 to 20 s and 1 to 6 mm, by the errors",
+      "PPP between houses, seeds 1 to 10; PPP of ESBC before 12:00 and of Kamakura"};
   constexpr DataChoice common_sigma_choice{
       "simulated canyons, seeds 1 to 10, ESBC station and Kamakura car",
       "codes among 0 to 1 m, phases among 0 to 10 mm, by the errors",
@@ -78,6 +87,9 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"common_phase_sigma", &P::common_phase_sigma, 0.0, any_sigma, "m", expert,
        "Standard deviation of what the phases of a satellite's carriers have in common besides.",
        common_sigma_choice},
+      {"phase_correlation", &P::phase_correlation, 0.0, long_time, "s", expert,
+       "Correlation time of what the phases have in common. 0: not correlated.",
+       phase_correlation_choice},
       {"shadow_phase_factor", &P::shadow_phase_factor, 1.0, 1000.0, "1", expert,
        "Factor on phase_sigma for satellites in the earth's shadow, whose attitude is not known."},
       {"doppler_sigma", &P::doppler_sigma, smallest, any_sigma, "m/s", expert,
@@ -242,20 +254,19 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"integer_elevation", &P::integer_elevation, 0.0, 90.0, "deg", expert,
        "Ambiguities of satellites at a lower elevation are not resolved."},
       {"wide_lane_sigma", &P::wide_lane_sigma, smallest, 10.0, "cycles", expert,
-       "Largest standard deviation of a wide lane that is resolved.", wide_lane_sigma_choice},
-      {"wide_lane_fraction", &P::wide_lane_fraction, 0.0, 0.5, "cycles", expert,
-       "Largest distance of such a wide lane from an integer."},
-      {"integer_variance_factor", &P::integer_variance_factor, smallest, 1000.0, "1", expert,
-       "Factor on the covariance of the ambiguities, whose errors last longer than the filter "
-       "assumes."},
+       "Standard deviation of what is left of the error of a wide lane that codes and phases have "
+       "measured for hours.",
+       wide_lane_sigma_choice},
       {"integer_success", &P::integer_success, 0.0, 1.0, "1", expert,
-       "Least probability, by that covariance, that the integers are right."},
+       "Least probability, by the covariance of the ambiguities, that the integers are right.",
+       integer_success_choice},
       {"integer_ratio", &P::integer_ratio, 1.0, any_gate, "1", expert,
        "Least ratio of the squared distances of the second best integers and the best."},
       {"integer_misfit", &P::integer_misfit, smallest, any_gate, "1", expert,
        "Largest squared distance of the best integers, for each of them, in variances."},
       {"integer_fewest", &P::integer_fewest, 1, 100, "1", expert,
-       "Fewest integers that are used together."},
+       "Fewest combinations of ambiguities whose integers are used together, and fewest satellites "
+       "whose ambiguities are integers in a position that is called fixed."},
       {"integer_confirmation", &P::integer_confirmation, 0.0, long_time, "s", expert,
        "Time for which the integers must not have changed before they are used."},
 

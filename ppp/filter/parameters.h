@@ -38,7 +38,8 @@ struct PppParameters {
   double code_sigma = 0.4;                   // m, of each carrier's own
   double common_code_sigma = 0.9;            // m, of the error that the carriers have in common
   double phase_sigma = 0.003;                // m, of each carrier's own
-  double common_phase_sigma = 0.006;         // m
+  double common_phase_sigma = 0.002;         // m
+  double phase_correlation = 10.0;           // s, of the error that the carriers have in common
   double shadow_phase_factor = 4.0;          // on phase_sigma in the earth's shadow
   double doppler_sigma = 0.10;               // m/s
   double glonass_code_factor = 3.0;          // on code_sigma for GLONASS
@@ -107,16 +108,14 @@ struct PppParameters {
   double start_largest_residual = 10.0;  // in sigmas; beyond it there is no first position
 
   // --- Integers
-  bool integers = true;                  // whether ambiguities are resolved to integers
-  double integer_elevation = 10.0;       // deg
-  double wide_lane_sigma = 0.15;         // cycles
-  double wide_lane_fraction = 0.25;      // cycles, largest distance of a wide lane from an integer
-  double integer_variance_factor = 2.0;  // on the covariance of the ambiguities
-  double integer_success = 0.999;        // least probability that the integers are right
-  double integer_ratio = 3.0;            // least ratio of squared distances, second best to best
-  double integer_misfit = 3.0;           // largest squared distance for each integer, in variances
-  int integer_fewest = 4;                // fewest integers that are used together
-  double integer_confirmation = 30.0;    // s
+  bool integers = true;                // whether ambiguities are resolved to integers
+  double integer_elevation = 10.0;     // deg
+  double wide_lane_sigma = 0.1;        // cycles
+  double integer_success = 0.97;       // least probability that the integers are right
+  double integer_ratio = 3.0;          // least ratio of squared distances, second best to best
+  double integer_misfit = 3.0;         // largest squared distance for each integer, in variances
+  int integer_fewest = 4;              // fewest combinations that are used together
+  double integer_confirmation = 30.0;  // s
 
   // --- The road that map matching has found
   double map_useful_share = 0.3;       // least ratio of the map-free sigma to the map's

@@ -206,9 +206,9 @@ void PppFilter::report(const std::vector<Tracked>& tracked) {
   const Eigen::Matrix3d& R = model_.R_enu_ecef();
   const Eigen::Matrix3d enu = R * solution_.covariance * R.transpose();
   const bool small = std::sqrt(enu(0, 0) + enu(1, 1)) < converged_sigma;
-  solution_.status = !small             ? PppStatus::converging
-                     : fixed != nullptr ? PppStatus::fixed
-                                        : PppStatus::converged;
+  solution_.status = !small                                                  ? PppStatus::converging
+                     : solution_.integers.used >= parameters_.integer_fewest ? PppStatus::fixed
+                                                                             : PppStatus::converged;
 }
 
 void PppFilter::restart() {

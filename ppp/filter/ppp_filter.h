@@ -59,7 +59,7 @@ class PppFilter {
   // parameters, and the filter then stays as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 14);
+    ar.section("ppp", 15);
     archive_same_parameters(ar, parameters_);
     archive_same_parameters(ar, parameters_.ground);
     if constexpr (Archive::loading) {

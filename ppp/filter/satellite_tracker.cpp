@@ -13,10 +13,12 @@ using S = FilterState;
 // A satellite's first code has its full weight, each later one only (1 - r) / (1 + r) of it: its
 // error is a first-order Gauss-Markov process with the correlation r since the previous code,
 // `since` s ago.
-void weigh_later_code(Tracked& tracked, double since, double speed,
-                      const PppParameters& parameters) {
+void weigh_later_errors(Tracked& tracked, double since, double speed,
+                        const PppParameters& parameters) {
   // (14) of METHOD.md
   const auto inflation = [since](double rate) { return 1.0 / std::tanh(0.5 * since * rate); };
+  if (parameters.phase_correlation > 0.0)
+    tracked.phase_inflation = inflation(1.0 / parameters.phase_correlation);
   if (tracked.measurement.satellite.system == System::glonass) {
     tracked.code_inflation = inflation(1.0 / parameters.glonass_code_correlation);
   } else if (parameters.code_correlation > 0.0) {
@@ -90,7 +92,7 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
     double since = 0.0;
     if (memory.last_code) {
       since = std::abs(to_seconds(t - *memory.last_code));
-      weigh_later_code(tracked, since, speed, parameters);
+      weigh_later_errors(tracked, since, speed, parameters);
       tracked.new_source = memory.source != predicted->satellite.source;
     }
     if (tracked.new_source) open_ambiguity(state, m.satellite, parameters.source_change_sigma);

@@ -19,9 +19,10 @@ namespace maploop::ppp {
 struct Tracked {
   Measurement measurement;
   PredictedRange predicted;
-  double code_offset = 0.0;     // m, code minus its prediction without clocks
-  double code_inflation = 1.0;  // factor on the code's variance: its error outlasts an epoch
-  double level = 1.0;           // factor on all variances, if the codes' residuals are large
+  double code_offset = 0.0;      // m, code minus its prediction without clocks
+  double code_inflation = 1.0;   // factor on the code's variance: its error outlasts an epoch
+  double phase_inflation = 1.0;  // the same of the error that its phases have in common
+  double level = 1.0;            // factor on all variances, if the codes' residuals are large
   bool code_good = true;
   bool phase_good = true;
   bool new_source = false;  // its orbit and clock come from another source than before

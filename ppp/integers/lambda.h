@@ -10,7 +10,7 @@ namespace maploop::ppp {
 
 class Lambda {
  public:
-  static constexpr int max_size = 40;
+  static constexpr int max_size = 64;
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
 
