@@ -51,6 +51,10 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       "ESBC station, 00:00 to 12:00",
       "among 0.9 to 0.999 by the time to 0.1 m, none with wrong integers",
       "PPP of ESBC before 12:00"};
+  constexpr DataChoice integer_margin_choice{
+      "ESBC station, 00:00 to 12:00 and as a vehicle",
+      "among 10 to 30 by the time to 0.1 m and the fixed epochs, none with wrong integers",
+      "PPP of ESBC before 12:00"};
   constexpr DataChoice range_error_time_choice{"ESBC station with broadcast orbits, 00:00 to 12:00",
                                                "among 1, 4 and 12 hours by the errors",
                                                "PPP of ESBC before 12:00 with broadcast orbits"};
@@ -260,8 +264,10 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"integer_success", &P::integer_success, 0.0, 1.0, "1", expert,
        "Least probability, by the covariance of the ambiguities, that the integers are right.",
        integer_success_choice},
-      {"integer_ratio", &P::integer_ratio, 1.0, any_gate, "1", expert,
-       "Least ratio of the squared distances of the second best integers and the best."},
+      {"integer_margin", &P::integer_margin, 0.0, any_gate, "1", expert,
+       "Least difference of the squared distances of the second best integers and the best, in "
+       "variances, or in misfits of the best if these are larger.",
+       integer_margin_choice},
       {"integer_misfit", &P::integer_misfit, smallest, any_gate, "1", expert,
        "Largest squared distance of the best integers, for each of them, in variances."},
       {"integer_fewest", &P::integer_fewest, 1, 100, "1", expert,

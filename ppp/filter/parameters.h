@@ -112,7 +112,7 @@ struct PppParameters {
   double integer_elevation = 10.0;     // deg
   double wide_lane_sigma = 0.1;        // cycles
   double integer_success = 0.97;       // least probability that the integers are right
-  double integer_ratio = 3.0;          // least ratio of squared distances, second best to best
+  double integer_margin = 15.0;        // least margin of the best to the second best, in variances
   double integer_misfit = 3.0;         // largest squared distance for each integer, in variances
   int integer_fewest = 4;              // fewest combinations that are used together
   double integer_confirmation = 30.0;  // s

@@ -50,6 +50,7 @@ struct IntegerReport {
   int used = 0;               // satellites whose integer is used
   double success_rate = 0.0;  // probability that the integers are right, by the covariance
   double ratio = 0.0;         // squared distance of the second best integers to that of the best
+  double margin = 0.0;        // by which the second best fits worse, in variances or misfits
   double misfit = 0.0;        // squared distance of the best for each ambiguity, in variances
 };
 

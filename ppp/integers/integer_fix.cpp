@@ -224,10 +224,10 @@ int IntegerFix::search(IntegerReport& report) {
     report.success_rate = lambda_.success_rate(count);
     report.ratio = found->next_distance / found->distance;
     report.misfit = found->distance / count;
-    report.outcome = report.ratio < parameters_.integer_ratio ? IntegerOutcome::not_distinct
-                                                              : IntegerOutcome::misfit;
-    if (report.ratio < parameters_.integer_ratio || report.misfit > parameters_.integer_misfit)
-      continue;
+    report.margin = (found->next_distance - found->distance) / std::max(1.0, report.misfit);
+    const bool distinct = report.margin >= parameters_.integer_margin;
+    report.outcome = distinct ? IntegerOutcome::misfit : IntegerOutcome::not_distinct;
+    if (!distinct || report.misfit > parameters_.integer_misfit) continue;
     integers_ = found->integers;
     return count;
   }

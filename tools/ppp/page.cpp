@@ -65,18 +65,19 @@ bool searched(const PppSolution& s) {
   return s.integers.success_rate > 0.0;
 }
 
-// The figures of the tests that integers must pass; none if they were never searched for.
+// By how much more the second best integers contradict the real-valued ambiguities than the best
+// do, and how much the best do; none if they were never searched for.
 std::vector<Plot> integers(const Rows& rows) {
   const auto is_searched = [](const EpochRow& r) { return r.solved() && searched(*r.solution); };
   if (std::none_of(rows.begin(), rows.end(), is_searched)) return {};
   const auto where_searched = [](auto value) {
     return [value](const PppSolution& s) { return searched(s) ? value(s.integers) : unknown; };
   };
+  constexpr double most = 100.0;  // what is beyond is as certain
   return {over_time(
-              "Squared distance of the second best integers to that of the best", "1, at most 100",
-              rows,
-              {{"ratio", where_searched([](const auto& i) { return std::min(i.ratio, 100.0); })}}),
-          over_time("Squared distance of the best for each ambiguity", "variances", rows,
+              "Margin of integers", "variances, at most 100", rows,
+              {{"margin", where_searched([](const auto& i) { return std::min(i.margin, most); })}}),
+          over_time("Misfit of integers", "variances", rows,
                     {{"misfit", where_searched([](const auto& i) { return i.misfit; })}})};
 }
 

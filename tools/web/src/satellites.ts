@@ -25,7 +25,7 @@ const shown: Record<Quantity, { title: string; unit: string; scale: number }> = 
   cn0: { title: "C/N0", unit: "dB-Hz", scale: 0.1 },
   code: { title: "Residuals of code", unit: "m", scale: 1e-3 },
   phase: { title: "Residuals of phase", unit: "m", scale: 1e-3 },
-  ionosphere: { title: "Ionosphere's delay on L1", unit: "m", scale: 1e-3 },
+  ionosphere: { title: "Ionosphere's delay on L1, with biases of codes", unit: "m", scale: 1e-3 },
 };
 
 // Points drawn by rectangles: there are too many for uPlot's.
