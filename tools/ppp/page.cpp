@@ -73,10 +73,9 @@ std::vector<Plot> integers(const Rows& rows) {
   const auto where_searched = [](auto value) {
     return [value](const PppSolution& s) { return searched(s) ? value(s.integers) : unknown; };
   };
-  constexpr double most = 100.0;  // what is beyond is as certain
-  return {over_time(
-              "Margin of integers", "variances, at most 100", rows,
-              {{"margin", where_searched([](const auto& i) { return std::min(i.margin, most); })}}),
+  return {over_time("Margin of integers", "variances, at most 100", rows,
+                    {{"margin",
+                      where_searched([](const auto& i) { return std::min(i.margin, 100.0); })}}),
           over_time("Misfit of integers", "variances", rows,
                     {{"misfit", where_searched([](const auto& i) { return i.misfit; })}})};
 }
