@@ -128,10 +128,10 @@ TEST_F(SmoothedRun, OfACarAgreesWithItsReferenceAboutTheMean) {
         car + "COD0MGXFIN_20212650000_01D_05M_ORB.SP3.gz",
         car + "COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz", "models/igs14_rebuilt_GE.atx.gz"});
   place_ = (maploop::testing::real_data() / "gnss" / car / "rtk_reference.pos.gz").string();
-  EXPECT_GT(accuracy(Direction::forward).horizontal_rmse_without_mean, 0.15);
+  EXPECT_GT(accuracy(Direction::forward).horizontal_rmse_without_mean, 0.1);
   const auto smoothed = accuracy(Direction::smoothed);
   EXPECT_LT(smoothed.horizontal_rmse_without_mean, 0.06);
-  EXPECT_LT(smoothed.horizontal_rmse, 0.3);
+  EXPECT_LT(smoothed.horizontal_rmse, 0.5);  // the reference's base is 0.3 m off
   EXPECT_LT(smoothed.nees, 3.0);
 }
 

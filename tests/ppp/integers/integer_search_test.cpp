@@ -54,7 +54,7 @@ class IntegerSearch : public ::testing::Test {
   int ambiguity(int i) const {
     return state.find(tracked[static_cast<std::size_t>(i)].measurement.satellite, Part::ambiguity);
   }
-  static double factor(int i) { return 1.0 + 0.4 * i * i; }
+  static double factor(int i) { return 1.0 + 0.1 * i * i; }
 
   const GpsTime start = gps_time({2020, 6, 25, 12, 0, 0.0});
   PppParameters parameters;
@@ -103,7 +103,7 @@ class IntegerSearch : public ::testing::Test {
 };
 
 TEST_F(IntegerSearch, IntegersAreUsedOnceTheyAreConfirmed) {
-  make(0.005, 0.01);
+  make(0.003, 0.003);
   EXPECT_EQ(resolve(0.0), nullptr);
   EXPECT_EQ(report.outcome, IntegerOutcome::unconfirmed);
   EXPECT_EQ(resolve(29.0), nullptr);
@@ -117,7 +117,7 @@ TEST_F(IntegerSearch, IntegersAreUsedOnceTheyAreConfirmed) {
 }
 
 TEST_F(IntegerSearch, WhatTheSatellitesHaveInCommonIsNoInteger) {
-  make(0.005, 0.01);
+  make(0.003, 0.003);
   for (int i = 0; i < satellites; ++i) shift(i, 0.4, 0.7);
   resolve(0.0);
   ASSERT_NE(resolve(30.0), nullptr);
@@ -126,7 +126,7 @@ TEST_F(IntegerSearch, WhatTheSatellitesHaveInCommonIsNoInteger) {
 }
 
 TEST_F(IntegerSearch, AnIntegerThatChangesIsConfirmedAnew) {
-  make(0.005, 0.01);
+  make(0.003, 0.003);
   resolve(0.0);
   ASSERT_NE(resolve(30.0), nullptr);
   shift(3, 1.0, 1.0);  // its wide lane stays
@@ -136,7 +136,7 @@ TEST_F(IntegerSearch, AnIntegerThatChangesIsConfirmedAnew) {
 }
 
 TEST_F(IntegerSearch, APhaseThatBeginsAnewLeavesTheOthersConfirmed) {
-  make(0.005, 0.01);
+  make(0.003, 0.003);
   resolve(0.0);
   ASSERT_NE(resolve(30.0), nullptr);
   shift(3, 5.0, 5.0);
@@ -168,7 +168,7 @@ TEST_F(IntegerSearch, AmbiguitiesThatAreNoIntegersDoNotFit) {
 }
 
 TEST_F(IntegerSearch, TooFewSatellitesAreNotSearched) {
-  make(0.005, 0.01);
+  make(0.003, 0.003);
   for (Tracked& t : tracked) t.predicted.in_shadow = t.measurement.satellite.number > 4;
   EXPECT_EQ(resolve(0.0), nullptr);
   EXPECT_EQ(report.outcome, IntegerOutcome::too_few);
@@ -176,7 +176,7 @@ TEST_F(IntegerSearch, TooFewSatellitesAreNotSearched) {
 }
 
 TEST_F(IntegerSearch, MoreSatellitesThanThereIsRoomForAreLeftOut) {
-  make(0.005, 0.01);
+  make(0.003, 0.003);
   const std::vector<Tracked> eight = tracked;
   for (std::uint8_t number = 9; number < 60; ++number) {
     Tracked t = eight.front();
