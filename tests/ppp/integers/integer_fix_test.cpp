@@ -53,6 +53,27 @@ TEST(IntegerFix, MakesAStationsPositionsGoodToACentimetre) {
   EXPECT_LT(fixed.nees, 3.0);
 }
 
+// Real-valued ambiguities take the station 4.5 to 9 minutes at these hours, at which it chose no
+// parameter.
+TEST(IntegerFix, ADecimetreIsReachedWithinMinutesOfAColdStart) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const GnssFiles files = station();
+  const gnss::Truth truth("3582104.7678,532590.1740,5232755.1436",
+                          gps_time({2020, 6, 25, 15, 0, 0.0}));
+  for (const int hour : {15, 16, 17, 18}) {
+    gnss::RunOptions options;
+    options.parameters.systems = "GE";
+    options.parameters.motion = Motion::fixed;
+    options.start = gps_time({2020, 6, 25, hour, 0, 0.0});
+    options.end = gps_time({2020, 6, 25, hour, 30, 0.0});
+    gnss::PppRun run(files, options);
+    gnss::Score score(truth, 1e-4);
+    run.process([&](const PppSolution& s) { score.add(s); });
+    EXPECT_LE(score.time_to_stay_below(0.1).value_or(1e9), 330.0) << hour;
+    EXPECT_EQ(score.accuracy().wrongly_fixed, 0U) << hour;
+  }
+}
+
 // Satellite antennas that are off by a narrow lane make wrong integers likely: they must be
 // refused, or at least not make the position worse.
 TEST(IntegerFix, RefusesIntegersOfWrongAntennas) {
