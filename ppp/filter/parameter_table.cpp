@@ -55,6 +55,10 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       "ESBC station, 00:00 to 12:00 and as a vehicle",
       "among 10 to 30 by the time to 0.1 m and the fixed epochs, none with wrong integers",
       "PPP of ESBC before 12:00"};
+  constexpr DataChoice clock_difference_choice{
+      "simulated canyons, seeds 1 to 10, ESBC station, Kamakura car and Riverside",
+      "among 10 to 100 m by the errors in canyons; the three real receivers have 1 to 8 m",
+      "PPP between houses, seeds 1 to 10; the first minutes of the others"};
   constexpr DataChoice range_error_time_choice{"ESBC station with broadcast orbits, 00:00 to 12:00",
                                                "among 1, 4 and 12 hours by the errors",
                                                "PPP of ESBC before 12:00 with broadcast orbits"};
@@ -196,6 +200,10 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "clocks. It is added to the ambiguity when a satellite's source changes."},
       {"clock_sigma", &P::clock_sigma, smallest, 1e6, "m", expert,
        "Standard deviation of a clock, or of a system's offset, that is set from the codes."},
+      {"clock_difference_sigma", &P::clock_difference_sigma, smallest, 1e6, "m", expert,
+       "Standard deviation of a receiver's delay of one system against another's. Where it is "
+       "more than three times that, it is estimated from the codes alone.",
+       clock_difference_choice},
       {"drift_sigma", &P::drift_sigma, smallest, 1e6, "m/s", expert,
        "Standard deviation of the clock's drift, which is set from the Doppler shifts."},
       {"position_sigma", &P::position_sigma, smallest, 1e6, "m", expert,

@@ -80,6 +80,7 @@ struct PppParameters {
   double code_difference_sigma = 10.0;       // m
   double source_change_sigma = 2.0;          // m
   double clock_sigma = 100.0;                // m
+  double clock_difference_sigma = 10.0;      // m
   double drift_sigma = 100.0;                // m/s
   double position_sigma = 60.0;              // m
   double velocity_sigma = 10.0;              // m/s

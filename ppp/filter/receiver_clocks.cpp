@@ -63,7 +63,10 @@ void ReceiverClocks::set(std::vector<Tracked>& tracked, const PppParameters& par
       clock = own;
       reference_system_ = static_cast<int>(s);
     } else {
-      state.set(S::system_offset + static_cast<int>(s), *own - *clock, parameters.clock_sigma);
+      const double difference = *own - *clock, usual = parameters.clock_difference_sigma;
+      const bool is_usual = std::abs(difference) <= 3.0 * usual;
+      state.set(S::system_offset + static_cast<int>(s), is_usual ? 0.0 : difference,
+                is_usual ? usual : parameters.clock_sigma);
     }
   }
   if (!clock) return;

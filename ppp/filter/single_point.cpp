@@ -26,7 +26,7 @@ struct NormalEquations {
   Eigen::Matrix<double, columns, columns> normal = Eigen::Matrix<double, columns, columns>::Zero();
   Unknowns right = Unknowns::Zero();
   std::array<bool, system_count> has_clock{};
-  int used = 0, unknowns = 3;
+  int used = 0;
   // Of the squared residuals, in variances. Those beyond the expected ones come from reflections,
   // which are in the mean of the carriers and which removing the ionosphere does not amplify.
   double sum = 0.0;
@@ -82,7 +82,7 @@ class CodePositioning {
         return result;
       }
       result.position = position_;
-      if (const int spare = last.used - last.unknowns; spare > 0)
+      if (const int spare = last.used - position_unknowns; spare > 0)
         result.residual_level = last.sum / spare;
       return result;
     }
@@ -95,10 +95,10 @@ class CodePositioning {
     bool settled = false;
     for (int i = 0; i < max_iterations && !settled; ++i) {
       equations = linearize();
-      if (equations.used < equations.unknowns) {
+      if (equations.used < position_unknowns) {
         failure = std::to_string(equations.used) +
                   " satellites with orbit, clock and code above the mask, and " +
-                  std::to_string(equations.unknowns) + " are needed";
+                  std::to_string(position_unknowns) + " are needed";
         return equations;
       }
       const Unknowns dx = equations.normal.ldlt().solve(equations.right);
@@ -121,14 +121,30 @@ class CodePositioning {
       if (left_out_[i]) continue;
       if (const auto predicted = predict(measured_[i], on_earth)) add(i, *predicted, equations);
     }
+    add_clocks(equations);
+    return equations;
+  }
+
+  // The clock of each system is that of the first, known to `clock_difference_sigma`.
+  void add_clocks(NormalEquations& equations) const {
+    const double weight =
+        1.0 / (parameters_.clock_difference_sigma * parameters_.clock_difference_sigma);
+    int first = -1;
     for (int s = 0; s < system_count; ++s) {
-      if (equations.has_clock[static_cast<std::size_t>(s)]) {
-        ++equations.unknowns;
-      } else {
+      if (!equations.has_clock[static_cast<std::size_t>(s)]) {
         equations.normal(3 + s, 3 + s) = 1.0;
+      } else if (first < 0) {
+        first = s;
+      } else {
+        Unknowns h = Unknowns::Zero();
+        h[3 + s] = 1.0;
+        h[3 + first] = -1.0;
+        const double y = clocks_[first] - clocks_[s];
+        equations.normal += h * h.transpose() * weight;
+        equations.right += h * (y * weight);
+        equations.sum += y * y * weight;
       }
     }
-    return equations;
   }
 
   std::optional<PredictedRange> predict(const Measurement& m, bool on_earth) const {

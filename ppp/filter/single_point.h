@@ -17,9 +17,10 @@ struct SinglePoint {
   double residual_level = 1.0;
 };
 
-// Solves by weighted least squares. The largest residual beyond `start_outlier_sigmas` is left out,
-// one satellite at a time, up to `start_outlier_share` of them; the solution fails if one beyond
-// `start_largest_residual` remains. `near` is in m, earth-fixed.
+// Solves by weighted least squares. The systems' clocks differ by `clock_difference_sigma`. The
+// largest residual beyond `start_outlier_sigmas` is left out, one satellite at a time, up to
+// `start_outlier_share` of them; the solution fails if one beyond `start_largest_residual` remains.
+// `near` is in m, earth-fixed.
 SinglePoint solve_single_point(const std::vector<Measurement>& measured, GpsTime t,
                                const Eigen::Vector3d& near, const PppParameters& parameters,
                                RangeModel& model);
