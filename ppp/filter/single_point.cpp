@@ -1,6 +1,7 @@
 #include "ppp/filter/single_point.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -26,6 +27,7 @@ struct NormalEquations {
   Eigen::Matrix<double, columns, columns> normal = Eigen::Matrix<double, columns, columns>::Zero();
   Unknowns right = Unknowns::Zero();
   std::array<bool, system_count> has_clock{};
+  int first_clock = -1;  // the first system's that was measured
   int used = 0;
   // Of the squared residuals, in variances. Those beyond the expected ones come from reflections,
   // which are in the mean of the carriers and which removing the ionosphere does not amplify.
@@ -70,11 +72,13 @@ class CodePositioning {
     position_ = near;
     const int max_rejections =
         static_cast<int>(parameters_.start_outlier_share * static_cast<double>(measured_.size()));
-    for (int rejections = 0;; ++rejections) {
+    for (int rejections = 0;;) {
       const NormalEquations last = settle(result.failure);
       if (!result.failure.empty()) return result;
+      if (free_clock(last)) continue;
       if (last.worst > parameters_.start_outlier_sigmas && rejections < max_rejections) {
         left_out_[last.worst_at] = true;
+        ++rejections;
         continue;
       }
       if (last.worst > parameters_.start_largest_residual) {
@@ -82,7 +86,7 @@ class CodePositioning {
         return result;
       }
       result.position = position_;
-      if (const int spare = last.used - position_unknowns; spare > 0)
+      if (const int spare = last.used - unknowns(); spare > 0)
         result.residual_level = last.sum / spare;
       return result;
     }
@@ -95,10 +99,10 @@ class CodePositioning {
     bool settled = false;
     for (int i = 0; i < max_iterations && !settled; ++i) {
       equations = linearize();
-      if (equations.used < position_unknowns) {
+      if (equations.used < unknowns()) {
         failure = std::to_string(equations.used) +
                   " satellites with orbit, clock and code above the mask, and " +
-                  std::to_string(position_unknowns) + " are needed";
+                  std::to_string(unknowns()) + " are needed";
         return equations;
       }
       const Unknowns dx = equations.normal.ldlt().solve(equations.right);
@@ -125,17 +129,36 @@ class CodePositioning {
     return equations;
   }
 
+  int unknowns() const {
+    return position_unknowns + static_cast<int>(std::count(free_.begin(), free_.end(), true));
+  }
+
+  // Estimates the clock of a system whose difference does not fit from its codes alone, if there is
+  // redundancy without it. Returns whether there is such a system.
+  bool free_clock(const NormalEquations& last) {
+    if (last.used <= unknowns() + 1) return false;
+    const double most = parameters_.start_outlier_sigmas * parameters_.clock_difference_sigma;
+    for (std::size_t s = 0; s < free_.size(); ++s) {
+      if (free_[s] || !last.has_clock[s]) continue;
+      if (std::abs(clocks_[static_cast<Eigen::Index>(s)] - clocks_[last.first_clock]) <= most)
+        continue;
+      free_[s] = true;
+      return true;
+    }
+    return false;
+  }
+
   // The clock of each system is that of the first, known to `clock_difference_sigma`.
   void add_clocks(NormalEquations& equations) const {
     const double weight =
         1.0 / (parameters_.clock_difference_sigma * parameters_.clock_difference_sigma);
-    int first = -1;
+    int& first = equations.first_clock;
     for (int s = 0; s < system_count; ++s) {
       if (!equations.has_clock[static_cast<std::size_t>(s)]) {
         equations.normal(3 + s, 3 + s) = 1.0;
       } else if (first < 0) {
         first = s;
-      } else {
+      } else if (!free_[static_cast<std::size_t>(s)]) {
         Unknowns h = Unknowns::Zero();
         h[3 + s] = 1.0;
         h[3 + first] = -1.0;
@@ -191,7 +214,8 @@ class CodePositioning {
   const PppParameters& parameters_;
   RangeModel& model_;
   std::vector<bool> left_out_;
-  Eigen::Vector3d position_{0, 0, 0};  // m, earth-fixed
+  std::array<bool, system_count> free_{};  // systems whose clock may be far from the others'
+  Eigen::Vector3d position_{0, 0, 0};      // m, earth-fixed
   Eigen::Matrix<double, system_count, 1> clocks_ = Eigen::Matrix<double, system_count, 1>::Zero();
 };
 
