@@ -59,6 +59,10 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       "simulated canyons, seeds 1 to 10, ESBC station, Kamakura car and Riverside",
       "among 10 to 100 m by the errors in canyons; the three real receivers have 1 to 8 m",
       "PPP between houses, seeds 1 to 10; the first minutes of the others"};
+  constexpr DataChoice vertical_speed_choice{
+      "simulated canyons, seeds 1 to 10, Riverside and Kamakura car",
+      "among five pairs of 0.3 to 1 m/s and 10 to 20 s: the errors, and slopes of 5 % at 10 m/s",
+      "PPP between houses, seeds 1 to 10; PPP of Riverside and of Kamakura"};
   constexpr DataChoice range_error_time_choice{"ESBC station with broadcast orbits, 00:00 to 12:00",
                                                "among 1, 4 and 12 hours by the errors",
                                                "PPP of ESBC before 12:00 with broadcast orbits"};
@@ -147,8 +151,12 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Random walk of a gradient."},
       {"horizontal_acceleration", &P::horizontal_acceleration, 0.0, 1e4, "m^2/s^3", usual,
        "Power spectral density of the white horizontal acceleration of a moving receiver."},
-      {"vertical_acceleration", &P::vertical_acceleration, 0.0, 1e4, "m^2/s^3", usual,
-       "Power spectral density of the white vertical acceleration of a moving receiver."},
+      {"vertical_speed_sigma", &P::vertical_speed_sigma, smallest, 1e4, "m/s", usual,
+       "Standard deviation of the vertical speed of a moving receiver, which the slopes of roads "
+       "bound.",
+       vertical_speed_choice},
+      {"vertical_speed_time", &P::vertical_speed_time, smallest, long_time, "s", usual,
+       "Correlation time of that speed.", vertical_speed_choice},
       {"carried_by_motion", &P::carried_by_motion, usual,
        "Whether a replay's or a vehicle's own motion (odometry, wheels, inertial unit) moves the "
        "position from epoch to epoch, in place of a constant velocity."},

@@ -58,7 +58,8 @@ struct PppParameters {
   double gradient_sigma = 0.001;             // m
   double gradient_walk = 3e-6;               // m/sqrt(s)
   double horizontal_acceleration = 2.0;      // m^2/s^3
-  double vertical_acceleration = 0.2;        // m^2/s^3
+  double vertical_speed_sigma = 0.5;         // m/s
+  double vertical_speed_time = 20.0;         // s
   bool carried_by_motion = true;             // whether the vehicle's own motion moves the position
   double carried_walk = 0.02;                // m/sqrt(s)
   double carried_velocity_sigma = 0.1;       // m/s

@@ -12,22 +12,40 @@ namespace {
 
 using S = FilterState;
 
+// The horizontal velocity walks. The vertical one, which the slopes of roads bound, is a
+// first-order Gauss-Markov process, and the position its integral.
 void move(FilterState& state, double t, const PppParameters& parameters) {
   auto x = state.x();
   auto P = state.P();
-  x.segment<3>(S::position) += t * x.segment<3>(S::velocity);
-  P.middleRows<3>(S::position) += t * P.middleRows<3>(S::velocity);
-  P.middleCols<3>(S::position) += t * P.middleCols<3>(S::velocity);
-  const Eigen::Vector3d density(parameters.horizontal_acceleration,
-                                parameters.horizontal_acceleration,
-                                parameters.vertical_acceleration);
   const Eigen::Matrix3d R = rotation_enu_ecef(geodetic_from_ecef(x.segment<3>(S::position)));
-  const Eigen::Matrix3d Q = R.transpose() * density.asDiagonal() * R;
-  const double elapsed = std::abs(t);
-  P.block<3, 3>(S::position, S::position) += Q * (elapsed * elapsed * elapsed / 3.0);
-  P.block<3, 3>(S::position, S::velocity) += Q * (t * elapsed / 2.0);
-  P.block<3, 3>(S::velocity, S::position) += Q * (t * elapsed / 2.0);
-  P.block<3, 3>(S::velocity, S::velocity) += Q * elapsed;
+  const auto in_ecef = [&R](double horizontal, double vertical) -> Eigen::Matrix3d {
+    return R.transpose() * Eigen::Vector3d(horizontal, horizontal, vertical).asDiagonal() * R;
+  };
+  const double elapsed = std::abs(t), sign = t < 0.0 ? -1.0 : 1.0;
+  const double time = parameters.vertical_speed_time, keep = std::exp(-elapsed / time);
+  const Eigen::Matrix3d way = in_ecef(t, sign * time * (1.0 - keep)), kept = in_ecef(1.0, keep);
+
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, S::capacity> velocity_rows =
+      P.middleRows<3>(S::velocity);
+  x.segment<3>(S::position) += way * x.segment<3>(S::velocity);
+  x.segment<3>(S::velocity) = (kept * x.segment<3>(S::velocity)).eval();
+  P.middleRows<3>(S::position) += way.lazyProduct(velocity_rows);
+  P.middleRows<3>(S::velocity) = kept.lazyProduct(velocity_rows);
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, S::capacity, 3> velocity_columns =
+      P.middleCols<3>(S::velocity);
+  P.middleCols<3>(S::position) += velocity_columns.lazyProduct(way);
+  P.middleCols<3>(S::velocity) = velocity_columns.lazyProduct(kept);
+
+  const double q = parameters.horizontal_acceleration;
+  const double speed = parameters.vertical_speed_sigma * parameters.vertical_speed_sigma;
+  P.block<3, 3>(S::position, S::position) +=
+      in_ecef(q * elapsed * elapsed * elapsed / 3.0,
+              speed * time * time * (2.0 * elapsed / time - 3.0 + 4.0 * keep - keep * keep));
+  const Eigen::Matrix3d between =
+      in_ecef(q * t * elapsed / 2.0, sign * speed * time * (1.0 - keep) * (1.0 - keep));
+  P.block<3, 3>(S::position, S::velocity) += between;
+  P.block<3, 3>(S::velocity, S::position) += between;
+  P.block<3, 3>(S::velocity, S::velocity) += in_ecef(q * elapsed, speed * (1.0 - keep * keep));
 }
 
 }  // namespace

