@@ -27,10 +27,11 @@ struct Carrier {
 // Returns the ionosphere's delay of a carrier's code relative to that on GPS L1.
 double ionosphere_factor(const Carrier& carrier);
 
-// What is measured of a satellite: its range, by the mean of its carriers, or by its only one; and,
-// with two, its ionosphere, by half the difference of the second and the first carrier. If both
-// carriers are equally noisy, the noise of mean and difference is uncorrelated, and what is the
-// same on both, such as the detour of a reflected signal, is in the mean alone.
+// These are the two quantities that a satellite's carriers measure. The mean of both carriers, or
+// the only one, measures the range. Half the difference of the second and the first carrier
+// measures the ionosphere. If both carriers are equally noisy, the noise of mean and difference is
+// uncorrelated, and what is the same on both, such as the detour of a reflected signal, is in the
+// mean alone.
 enum class Combination : std::uint8_t { range, ionosphere };
 
 struct Measurement {

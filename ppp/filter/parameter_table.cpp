@@ -91,8 +91,7 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        code_sigma_choice},
       {"common_code_sigma", &P::common_code_sigma, 0.0, any_sigma, "m", expert,
        "Standard deviation of what the codes of a satellite's carriers have in common besides, "
-       "such "
-       "as reflections.",
+       "such as reflections.",
        common_sigma_choice},
       {"phase_sigma", &P::phase_sigma, smallest, any_sigma, "m", expert,
        "Standard deviation of the phase of one carrier, of what is its own.", phase_sigma_choice},

@@ -29,8 +29,8 @@ struct NormalEquations {
   std::array<bool, system_count> has_clock{};
   int first_clock = -1;  // the first system's that was measured
   int used = 0;
-  // Of the squared residuals, in variances. Those beyond the expected ones come from reflections,
-  // which are in the mean of the carriers and which removing the ionosphere does not amplify.
+  // This is the sum of the squared residuals, in variances of the carriers' mean: larger residuals
+  // than expected come from reflections, which removing the ionosphere does not amplify.
   double sum = 0.0;
   double worst = 0.0;  // residual, in standard deviations
   std::size_t worst_at = 0;

@@ -68,7 +68,8 @@ int FixedCombinations::same(const AmbiguityDifferences& differences,
 
 void FixedCombinations::forget(Satellite satellite) {
   for (Satellite& s : satellites_) {
-    if (s == satellite) s = {};
+    if (s == satellite)
+      s = {};  // no satellite has the number 0: what it is in compares with nothing
   }
 }
 

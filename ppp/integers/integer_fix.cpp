@@ -59,8 +59,8 @@ const FilterState* IntegerFix::resolve(const FilterState& state,
 void IntegerFix::take(const FilterState& state, const std::vector<Tracked>& tracked,
                       const std::vector<Row>& rows) {
   differences_.clear();
-  // Of each satellite, the rows of the range come before those of the ionosphere, and each code
-  // before its phase.
+  // The rows of a satellite's range come before those of its ionosphere, and each code comes before
+  // its phase.
   const Row *code = nullptr, *range = nullptr;
   for (const Row& row : rows) {
     const Tracked& t = tracked[row.tracked];
