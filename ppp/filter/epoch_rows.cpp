@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ppp/filter/median.h"
+#include "ppp/filter/row_update.h"
 
 namespace maploop::ppp {
 namespace {
@@ -54,10 +55,7 @@ void add_ionosphere(LinearRow& row, const Tracked& t, double share, const Filter
 double ionosphere_of(const Tracked& t, const FilterState& state) {
   LinearRow row;
   add_ionosphere(row, t, 1.0, state);
-  double delay = t.predicted.ionosphere.value;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k)
-    delay += row.h[k] * state.x()[row.indices[k]];
-  return delay;
+  return t.predicted.ionosphere.value + value_of(state, row);
 }
 
 std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int reference_system,
@@ -127,11 +125,7 @@ Row EpochRows::range_row(std::size_t i, const Tracked& t, Combination c, double 
   if (sign > 0.0 && c == Combination::ionosphere) row.add(S::code_difference + system, 1.0);
   // This is what the state predicts besides the geometric range, which is already computed at the
   // state's own position.
-  double predicted = 0.0;
-  const std::size_t first = c == Combination::range ? 3 : 0;
-  for (std::size_t k = first; k < static_cast<std::size_t>(row.count); ++k) {
-    predicted += row.h[k] * state.x()[row.indices[k]];
-  }
+  const double predicted = value_of(state, row, c == Combination::range ? 3 : 0);
   row.y = -predicted - (sign > 0.0 ? p.code(m, c) : p.phase(m, c));
   return row;
 }
@@ -183,8 +177,9 @@ void EpochRows::add_phase_row(std::size_t i, const Tracked& t, Combination c, do
     const double common = parameters_.common_phase_sigma * std::sqrt(inflation);
     return m.sigma(c, parameters_.phase_sigma, common) * shadow * std::sqrt(factor * t.level);
   };
+  const double inflated = sigma(t.phase_inflation);
   row.sigma = sigma(1.0);
-  row.variance = sigma(t.phase_inflation) * sigma(t.phase_inflation);  // (12) of METHOD.md
+  row.variance = inflated * inflated;  // (12) of METHOD.md
   rows_.push_back(row);
 }
 

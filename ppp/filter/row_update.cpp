@@ -4,15 +4,22 @@
 
 namespace maploop::ppp {
 
-double predicted_variance(const FilterState& state, const LinearRow& row) {
+double value_of(const FilterState& state, const LinearRow& row, std::size_t first) {
+  const auto x = state.x();
+  double value = 0.0;
+  for (std::size_t k = first; k < static_cast<std::size_t>(row.count); ++k)
+    value += row.h[k] * x[row.indices[k]];
+  return value;
+}
+
+double predicted_covariance(const FilterState& state, const LinearRow& a, const LinearRow& b) {
   const auto P = state.P();
-  double variance = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(row.count); ++i) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
-      variance += row.h[i] * P(row.indices[i], row.indices[k]) * row.h[k];
-    }
+  double covariance = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(a.count); ++i) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(b.count); ++k)
+      covariance += a.h[i] * P(a.indices[i], b.indices[k]) * b.h[k];
   }
-  return variance;
+  return covariance;
 }
 
 void apply_row(FilterState& state, const LinearRow& row, Eigen::VectorXd& dx) {

@@ -2,26 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "ppp/filter/row_update.h"
 
 namespace maploop::ppp {
 namespace {
-
-double value(const FilterState& state, const LinearRow& row) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(row.count); ++i)
-    sum += row.h[i] * state.x()[row.indices[i]];
-  return sum;
-}
-
-double covariance_of(const FilterState& state, const LinearRow& a, const LinearRow& b) {
-  const auto P = state.P();
-  double sum = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(a.count); ++i) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(b.count); ++k)
-      sum += a.h[i] * b.h[k] * P(a.indices[i], b.indices[k]);
-  }
-  return sum;
-}
 
 // Adds one of a satellite's two ambiguities, in cycles, to a difference.
 void add_ambiguity(LinearRow& difference, const IntegerCandidate& c, std::size_t which,
@@ -111,10 +97,10 @@ void AmbiguityDifferences::evaluate(const FilterState& state, DifferenceValues& 
   result.covariance.resize(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const LinearRow& a = rows_[static_cast<std::size_t>(i)];
-    result.values[i] = value(state, a);
+    result.values[i] = value_of(state, a);
     for (Eigen::Index k = 0; k <= i; ++k) {
       const LinearRow& b = rows_[static_cast<std::size_t>(k)];
-      result.covariance(i, k) = result.covariance(k, i) = covariance_of(state, a, b);
+      result.covariance(i, k) = result.covariance(k, i) = predicted_covariance(state, a, b);
     }
   }
 }

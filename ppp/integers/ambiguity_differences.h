@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "ppp/filter/filter_state.h"
@@ -51,8 +50,7 @@ class AmbiguityDifferences {
   // system is the one that the others are differenced against.
   void make(const FilterState& state);
 
-  std::vector<IntegerCandidate>& candidates() { return candidates_; }  // by satellite
-  const std::vector<IntegerCandidate>& candidates() const { return candidates_; }
+  const std::vector<IntegerCandidate>& candidates() const { return candidates_; }  // by satellite
   // Returns the indices of the candidates that are no reference.
   const std::vector<std::size_t>& differenced() const { return differenced_; }
   // Returns two rows of each of these, in cycles.
