@@ -95,6 +95,10 @@ def load(path):
     for i, experiment in enumerate(catalogue["experiment"]):
         experiment["arguments"] = [expanded(a, ["experiment", i, "arguments"]) for a in experiment.get("arguments", [])]
         experiment.setdefault("variants", {"": []})
+        if "program" in experiment:
+            experiment["program"] = str((Path(path).parent / experiment["program"]).resolve())
+            if not os.access(experiment["program"], os.X_OK):
+                fail(["experiment", i, "program"], f"there is no program at {experiment['program']}")
     catalogue["recording"] = [each for r in catalogue["recording"] for each in of_each_seed(r)]
     return catalogue
 
@@ -195,11 +199,14 @@ def make_plan(catalogue, made, only=()):
             if "config" in r:
                 arguments += ["--config", r["config"]]
             run = {"experiment": experiment["name"], "recording": r["name"], "split": r.get("split", ""),
-                   "command": experiment.get("command", "replay"), "tags": r.get("tags", []), "configuration": configuration, "named": named, "seed": seed,
+                   "command": experiment.get("command", "replay"), "program": experiment.get("program", ""),
+                   "tags": r.get("tags", []), "configuration": configuration, "named": named, "seed": seed,
                    "repeat": repeat, "fault": fault, "set": setting, "arguments": [r["path"], *arguments], "report": experiment.get("report", False),
                    "seconds": r.get("seconds", 600.0), "megabytes": MEGABYTES}
             run["variant"] = variant_of(run)
             files = [fingerprint(a) for a in own if os.path.isfile(a)]  # such as a map
+            if run["program"]:
+                files += [file_hash(f) for f in sorted(Path(run["program"]).parent.iterdir()) if f.is_file()]
             runs[digest(experiment["name"], run["arguments"], r["identity"], *files)] = run
     used = {run["recording"] for run in runs.values()}
     made_of = {n: {"folder": r["folder"], "command": r["make"], "record": r.get("record", [])}

@@ -10,6 +10,7 @@ more memory and time; at the last attempt it has a result, too.
 import json
 import os
 import platform
+import resource
 import shutil
 import subprocess
 import sys
@@ -44,8 +45,16 @@ def run(plan, key, result, last):
     setup = plan["runs"][key]
     with tempfile.TemporaryDirectory() as scratch:
         output = Path(scratch) / "output.json"
-        lockstep = ["--lockstep", "--no-lcm"] if setup["command"] == "replay" else []
-        command = [plan["binary"], setup["command"], *lockstep, "--json", str(output), *setup["arguments"]]
+        if setup["program"]:
+            raw = Path(plan["results"]).with_name("raw") / key
+            shutil.rmtree(raw, ignore_errors=True)
+            raw.mkdir(parents=True)
+            command = [setup["program"], "--maploop", plan["binary"], "--raw", str(raw)]
+        else:
+            command = [plan["binary"], setup["command"]]
+            if setup["command"] == "replay":
+                command += ["--lockstep", "--no-lcm"]
+        command += ["--json", str(output), *setup["arguments"]]
         report = Path(plan["results"]).with_name("reports") / f"{key}.html"
         if setup["report"]:
             report.parent.mkdir(exist_ok=True)
@@ -60,11 +69,13 @@ def run(plan, key, result, last):
             status, said = -9, f"it did not end within {limit:.0f} s"
         if status < 0 and not last:
             sys.exit(f"{key}: killed by signal {-status}; it is tried again")
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        job = {"cpu_s": round(used.ru_utime + used.ru_stime, 3), "peak_mb": round(used.ru_maxrss / 1024.0, 1)}
         record = {"schema": 1, "key": key, **setup, "code": plan["code"], "machine": processor(),
                   "status": status, "error": said.strip()[-500:] if status else "",
                   "wall_s": round(time.monotonic() - began, 3),
                   "report": f"../reports/{key}.html" if report.exists() else "",
-                  "output": json.loads(output.read_text()) if output.exists() else None}
+                  "output": {"job": job, **json.loads(output.read_text())} if output.exists() else None}
     partial = Path(result + f".{os.getpid()}.partial")
     partial.write_text(json.dumps(record))
     os.replace(partial, result)

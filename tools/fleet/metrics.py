@@ -1,4 +1,4 @@
-"""The figures of a run: one function each, of what `maploop replay --json` wrote."""
+"""The figures of a run: one function each, of what it wrote as JSON and of what it used (`job`)."""
 from dataclasses import dataclass
 from typing import Callable
 
@@ -262,13 +262,53 @@ for odometry_name, (unit, key, about) in {
     METRICS[odometry_name] = Metric(unit, lambda output, key=key: output[key], about, less_is_better)
 
 
-@metric("1")
+# How `maploop evaluate` scores what a program wrote.
+for score_name, (unit, part, key, about) in {
+    "horizontal": ("m", "horizontal_m", "rmse", "Horizontal error, root mean square."),
+    "horizontal_median": ("m", "horizontal_m", "median", "Horizontal error, median."),
+    "horizontal_95": ("m", "horizontal_m", "p95", "Horizontal error, 95 %."),
+    "vertical": ("m", "vertical_m", "rmse", "Vertical error, root mean square."),
+}.items():
+    METRICS[f"score_{score_name}"] = Metric(unit, lambda output, part=part, key=key: output["score"]["runs"][0][part][key],
+                                            about, True)
+
+
+@metric("%", less_is_better=False)
+def score_answered(output):
+    """Epochs of the truth for which there is a position."""
+    run = output["score"]["runs"][0]
+    return 100.0 * run["frames"] / (run["frames"] + run["unmatched"]["truth"])
+
+
+def score_over_100_m(output, part, key):
+    return next(length for length in output["score"]["lengths"] if length["length_m"] == 100.0)[part][key]
+
+
+@metric("%")
+def score_100(output):
+    """Error over 100 m, one rotation removed."""
+    return score_over_100_m(output, "common_rotation_removed", "percent")
+
+
+@metric("deg/m")
+def score_turning(output):
+    """Error of the rotation over 100 m, one rotation removed."""
+    return score_over_100_m(output, "common_rotation_removed", "deg_per_m")
+
+
+@metric("m")
+def score_end(output):
+    """Error at the end."""
+    return output["score"]["end_point_m"]
+
+
+@metric("s")
 def processor(output):
-    """Processor time a second of the recording."""
-    return output["replay"]["cpu_s"] / output["replay"]["data_s"]
+    """Processor time of the run."""
+    return output["job"]["cpu_s"]
 
 
 @metric("MB")
 def memory(output):
-    """Peak memory."""
-    return output["replay"]["peak_memory_bytes"] / 1e6
+    """Peak memory of the run."""
+    return output["job"]["peak_mb"]

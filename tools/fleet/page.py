@@ -69,6 +69,7 @@ of the means of runs is to the first variant, by pairs of one recording, seed an
 <table><thead><tr><th>metric</th><th>variant</th><th>values</th><th>mean</th><th>rms</th><th>median</th><th>95 %</th>
 <th>largest</th><th>ratio</th></tr></thead><tbody>{"".join(rows)}</tbody></table>
 {"".join(grid_part(grid, runs, variants, metrics) for grid in json.loads(experiment["grids"]))}
+{quoted_part(json.loads(experiment["quoted"]))}
 <div class="plots"></div></section>"""
 
 
@@ -98,6 +99,16 @@ def grid_part(grid, runs, variants, metrics):
 {grid["limit"]}; the last row has the root mean square of the {len(whole)} drives that have all.</p>
 <div class="wide"><table data-grid="{metric}"><thead><tr><th>drive</th>{"".join(f"<th>{html.escape(v)}</th>" for v in variants)}</tr></thead>
 <tbody>{rows}</tbody></table></div>"""
+
+
+def quoted_part(quoted):
+    """A table of others' own figures, which no run here has made."""
+    if not quoted:
+        return ""
+    rows = "".join("<tr>" + "".join(f"<td>{html.escape(each[k])}</td>" for k in ("name", "what", "value", "source")) + "</tr>"
+                   for each in quoted)
+    return f"""<h3>Quoted, not run here</h3><div class="wide"><table><thead><tr><th>program</th><th>what</th><th>value</th>
+<th>source</th></tr></thead><tbody>{rows}</tbody></table></div>"""
 
 
 def write(database, page):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from metrics import METRICS, value, values
 
-TEXTS = ("key", "experiment", "recording", "split", "tags", "variant", "configuration", "fault", "settings", "error",
+TEXTS = ("key", "experiment", "recording", "split", "tags", "variant", "configuration", "named", "fault", "settings", "error",
          "code", "hash", "report")
 NUMBERS = ("seed", "repeat", "status", "wall_s")
 
@@ -31,11 +31,12 @@ def collect(plan, database):
     columns = [f"{n} TEXT" for n in TEXTS] + [f"{n} REAL" for n in (*NUMBERS, *METRICS)]
     db.execute(f"CREATE TABLE runs ({', '.join(columns)}, PRIMARY KEY (key))")
     db.execute("CREATE TABLE parts (key TEXT, metric TEXT, value REAL)")  # of metrics that are of parts of a run
-    db.execute("CREATE TABLE experiments (name TEXT PRIMARY KEY, about TEXT, metrics TEXT, rows_by TEXT, grids TEXT)")
+    db.execute("CREATE TABLE experiments (name TEXT PRIMARY KEY, about TEXT, metrics TEXT, rows_by TEXT, grids TEXT, quoted TEXT)")
     db.execute("CREATE TABLE metrics (name TEXT PRIMARY KEY, unit TEXT, about TEXT, less_is_better INTEGER)")
     for name, e in plan["experiments"].items():
-        db.execute("INSERT INTO experiments VALUES (?, ?, ?, ?, ?)",
-                   (name, e.get("about", ""), " ".join(e["metrics"]), e.get("by", ""), json.dumps(e.get("grid", []))))
+        db.execute("INSERT INTO experiments VALUES (?, ?, ?, ?, ?, ?)",
+                   (name, e.get("about", ""), " ".join(e["metrics"]), e.get("by", ""), json.dumps(e.get("grid", [])),
+                    json.dumps(e.get("quoted", []))))
     db.executemany("INSERT INTO metrics VALUES (?, ?, ?, ?)",
                    ((n, m.unit, m.about, m.less_is_better) for n, m in METRICS.items()))
     marks = ", ".join("?" * len(columns))

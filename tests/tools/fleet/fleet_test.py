@@ -4,8 +4,6 @@
     fleet_test.py FOLDER_OF_THE_FLEET
 """
 import contextlib
-import importlib.machinery
-import importlib.util
 import io
 import json
 import os
@@ -26,6 +24,7 @@ sys.dont_write_bytecode = True
 try:
     import catalogue
     import results
+    from programs import program
 except ImportError as error:
     print(f"SKIPPED, NOT TESTED: {error}; tools/install-packages test")
     sys.exit(77)
@@ -50,13 +49,6 @@ seeds = [1, 2, 3]
 vary = { scale = [1, 2] }
 metrics = ["position_rms", "odom"]
 """
-
-
-def compare():
-    loader = importlib.machinery.SourceFileLoader("compare", str(FLEET / "compare"))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("compare", loader))
-    loader.exec_module(module)
-    return module
 
 
 class Folder(unittest.TestCase):
@@ -242,10 +234,10 @@ class Fleet(Folder):
         self.assertEqual(len(rows), 24)
         text = io.StringIO()
         with contextlib.redirect_stdout(text):
-            status = compare().main([str(self.folder / "out/old/c"), str(self.folder / "out/old/c")])
+            status = program(FLEET / "compare").main([str(self.folder / "out/old/c"), str(self.folder / "out/old/c")])
         self.assertEqual(status, 0)
         self.assertIn("seeds: 24 runs in both, 24 with the same bits", text.getvalue())
-        module = compare()
+        module = program(FLEET / "compare")
         old = [r for r in rows if r["variant"].endswith("scale=1")]
         new = [{**r, "variant": r["variant"] + ", scale=1"} for r in self.rows()]
         _, experiments, metrics = results.read(self.folder / "out/new/c/runs.sqlite")

@@ -18,6 +18,7 @@ try:
     import page
     import results
     from metrics import METRICS, value, values
+    from programs import program
     from statistics_of_pairs import paired, ratio
 except ImportError as error:
     print(f"SKIPPED, NOT TESTED: {error}; tools/install-packages test")
@@ -79,6 +80,39 @@ class Page(unittest.TestCase):
         self.assertEqual([bool(c[0]) for c in rows[0]], [False, True, False, True])
         self.assertEqual([c[1] for c in rows[1]], ["b", "1.00", "–", "1.00"])
         self.assertEqual([c[1] for c in rows[2]], ["all", "2.00", "1.00", "1.50"], "of drive a, which has all three")
+
+
+    def test_quoted_figures_stand_apart(self):
+        quoted = [{"name": "another", "what": "errors <of> it", "value": "1 %", "source": "its page"}]
+        text = page.quoted_part(quoted)
+        self.assertIn("Quoted, not run here", text)
+        self.assertIn("<td>errors &lt;of&gt; it</td><td>1 %</td><td>its page</td>", text)
+        self.assertEqual(page.quoted_part([]), "")
+
+
+class Figures(unittest.TestCase):
+    RUNS = [{"experiment": "e", "variant": v, "recording": d, "m": m, "parts": {}} for v, d, m in
+            (("old", "a", 1.0), ("old", "b", 2.0), ("new", "a", 3.0), ("new", "b", None), ("odd", "c", 9.0))]
+
+    def setUp(self):
+        self.figures = program(FLEET / "figures")
+
+    def test_a_table_pools_the_runs_of_its_rows_as_its_columns_say(self):
+        columns = {"mean": "m", "of a": "m; largest; recording=a", "values": "m; values", "loss, %": "m; loss; variant=old"}
+        spec = {"rows": ["variant"], "where": {"variant": ["old", "new"]}, "names": {"old": "before"}, "columns": columns}
+        self.assertEqual(self.figures.table_of(spec, self.RUNS), [
+            "|  | mean | of a | values | loss, % |", "|---|---|---|---|---|",
+            "| before | 1.5 | 1 | 2 | 0 |", "| new | 3 | 3 | 1 | 100 |"])
+
+    def test_a_table_that_cannot_be_read_is_named_with_its_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            side = Path(folder) / "FIGURES.md"
+            side.write_text("# Figures\n\n<!-- fleet\nrows = [\n-->\n<!-- /fleet -->\n")
+            with self.assertRaisesRegex(SystemExit, r"FIGURES.md, the table of line 3: "):
+                self.figures.main(["--no-run", str(side)])
+            side.write_text("# Figures\n")
+            with self.assertRaisesRegex(SystemExit, "there is no table of the fleet in"):
+                self.figures.main(["--no-run", str(side)])
 
 
 class Pairs(unittest.TestCase):
