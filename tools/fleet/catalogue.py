@@ -15,7 +15,7 @@ from metrics import METRICS
 
 HERE = Path(__file__).parent
 LOG = "odometry.lcmlog"  # in the folder of a made recording
-MEGABYTES = 600  # of one run; a run that is killed is repeated with twice as much
+MEGABYTES, MEGABYTES_A_SECOND = 400.0, 0.2  # of one run, by its recording's length; one that is killed is repeated with twice as much
 
 
 class Wrong(Exception):
@@ -202,7 +202,8 @@ def make_plan(catalogue, made, only=()):
                    "command": experiment.get("command", "replay"), "program": experiment.get("program", ""),
                    "tags": r.get("tags", []), "configuration": configuration, "named": named, "seed": seed,
                    "repeat": repeat, "fault": fault, "set": setting, "arguments": [r["path"], *arguments], "report": experiment.get("report", False),
-                   "seconds": r.get("seconds", 600.0), "megabytes": MEGABYTES}
+                   "seconds": r.get("seconds", 600.0)}
+            run["megabytes"] = int(MEGABYTES + MEGABYTES_A_SECOND * run["seconds"])
             run["variant"] = variant_of(run)
             files = [fingerprint(a) for a in own if os.path.isfile(a)]  # such as a map
             if run["program"]:
@@ -211,4 +212,8 @@ def make_plan(catalogue, made, only=()):
     used = {run["recording"] for run in runs.values()}
     made_of = {n: {"folder": r["folder"], "command": r["make"], "record": r.get("record", [])}
                for n, r in recordings.items() if "make" in r and n in used}
-    return {"experiments": {e["name"]: e for e in catalogue["experiment"]}, "made": made_of, "runs": runs}
+    replayed = {run["recording"] for run in runs.values() if run["command"] == "replay" and not run["program"]}
+    examined = {f"{n}-{digest(r['identity'])}": {"recording": n, "split": r.get("split", ""), "path": r["path"],
+                                                 "arguments": ["--config", r["config"]] if "config" in r else []}
+                for n, r in recordings.items() if n in replayed}
+    return {"experiments": {e["name"]: e for e in catalogue["experiment"]}, "made": made_of, "examined": examined, "runs": runs}

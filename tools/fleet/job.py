@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Makes one recording, or one run, of a plan. The file of its result appears whole or not at all.
+"""Makes or examines one recording, or makes one run, of a plan. The file of its result appears whole or not at all.
 
     job.py make PLAN NAME
+    job.py doctor PLAN NAME RESULT
     job.py run PLAN KEY RESULT LAST     LAST is 1 at the last attempt
 
 A run that ends with an error has a result that says so. One that was killed has none, so that it is tried again with
@@ -32,6 +33,25 @@ def make(plan, name):
         subprocess.run([plan["binary"], *made["record"]], check=True, cwd=partial, stdout=subprocess.DEVNULL)
     shutil.rmtree(folder, ignore_errors=True)
     os.rename(partial, folder)
+
+
+def write_whole(result, record):
+    partial = Path(result + f".{os.getpid()}.partial")
+    partial.write_text(json.dumps(record))
+    os.replace(partial, result)
+
+
+def doctor(plan, name, result):
+    """What is in a recording, and how sound it is."""
+    setup = plan["examined"][name]
+    with tempfile.TemporaryDirectory() as scratch:
+        output = Path(scratch) / "output.json"
+        done = subprocess.run([plan["binary"], "doctor", setup["path"], *setup["arguments"], "--json", output, "--html", result + ".html"],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
+        found = json.loads(output.read_text()) if output.exists() else {}
+    write_whole(result, {**setup, "error": done.stderr.strip()[-500:] if done.returncode else "",
+                         "sensors": found.get("sensors", []), "sentences": found.get("sentences", []),
+                         "page": f"../doctor/{name}.json.html" if os.path.exists(result + ".html") else ""})
 
 
 def processor():
@@ -76,14 +96,14 @@ def run(plan, key, result, last):
                   "wall_s": round(time.monotonic() - began, 3),
                   "report": f"../reports/{key}.html" if report.exists() else "",
                   "output": {"job": job, **json.loads(output.read_text())} if output.exists() else None}
-    partial = Path(result + f".{os.getpid()}.partial")
-    partial.write_text(json.dumps(record))
-    os.replace(partial, result)
+    write_whole(result, record)
 
 
 if __name__ == "__main__":
     plan_of = json.loads(Path(sys.argv[2]).read_text())
     if sys.argv[1] == "make":
         make(plan_of, sys.argv[3])
+    elif sys.argv[1] == "doctor":
+        doctor(plan_of, sys.argv[3], sys.argv[4])
     else:
         run(plan_of, sys.argv[3], sys.argv[4], sys.argv[5] == "1")

@@ -111,6 +111,25 @@ def quoted_part(quoted):
 <th>source</th></tr></thead><tbody>{rows}</tbody></table></div>"""
 
 
+def recordings_part(recordings):
+    """A table of what `maploop doctor` found in each recording."""
+    if not recordings:
+        return ""
+
+    def row_of(r):
+        name = f'<a href="{html.escape(r["page"])}">{html.escape(r["name"])}</a>' if r["page"] else html.escape(r["name"])
+        sensors = json.loads(r["sensors"])
+        what = ", ".join(f"{s['sensor']} {number(s['rate_hz'])} Hz" for s in sensors)
+        gap = max(sensors, key=lambda s: (s["longest_gap_s"] or 0.0) * (s["rate_hz"] or 0.0), default=None)
+        longest = f"{number(gap['longest_gap_s'])} s, {gap['sensor']}" if gap else "–"
+        said = r["error"] or "; ".join(f"{s['left_out']} of {s['sensor']}: {s['finding']}" for s in sensors if s["left_out"])
+        return f"<tr><td>{name}</td><td>{r['split']}</td><td>{what}</td><td>{longest}</td><td>{html.escape(said)}</td></tr>"
+
+    return f"""<section><h2>Recordings</h2><p>What <code>maploop doctor</code> finds in each; the gap is the longest by the sensor's own rate.</p>
+<div class="wide"><table class="recordings"><thead><tr><th>recording</th><th>split</th><th>sensors</th><th>longest gap</th>
+<th>left out</th></tr></thead><tbody>{"".join(map(row_of, recordings))}</tbody></table></div></section>"""
+
+
 def write(database, page):
     runs, experiments, metrics = results.read(database)
     shown = [n for n in metrics if any(r[n] is not None for r in runs)]
@@ -127,7 +146,7 @@ def write(database, page):
     for place, what in (("STYLE", "".join((HERE.parent / "web/design" / f"{sheet}.css").read_text() for sheet in ("tokens", "base"))),
                         ("SUMMARY", f"{len(runs)} runs of {len({r['recording'] for r in runs})} recordings by the "
                                     f"binary {html.escape(runs[0]['code'])}; {failed} failed."),
-                        ("PARTS", "\n".join(parts)),
+                        ("PARTS", "\n".join([*parts, recordings_part(results.table(database, "recordings"))])),
                         ("DATA", json.dumps(data, separators=(",", ":")).replace("</", "<\\/"))):
         text = text.replace(f"<!--{place}-->", what)
     partial = Path(str(page) + ".partial")

@@ -39,6 +39,12 @@ def collect(plan, database):
                     json.dumps(e.get("quoted", []))))
     db.executemany("INSERT INTO metrics VALUES (?, ?, ?, ?)",
                    ((n, m.unit, m.about, m.less_is_better) for n, m in METRICS.items()))
+    db.execute("CREATE TABLE recordings (name TEXT, split TEXT, error TEXT, sensors TEXT, sentences TEXT, page TEXT)")
+    for name in plan["examined"]:
+        found = json.loads((Path(plan["doctor"]) / f"{name}.json").read_text())
+        db.execute("INSERT INTO recordings VALUES (?, ?, ?, ?, ?, ?)",
+                   (found["recording"], found["split"], found["error"], json.dumps(found["sensors"]),
+                    "\n".join(found["sentences"]), found["page"]))
     marks = ", ".join("?" * len(columns))
     for key in plan["runs"]:
         record = json.loads((Path(plan["results"]) / f"{key}.json").read_text())
@@ -52,23 +58,24 @@ def collect(plan, database):
     os.replace(partial, database)
 
 
-def read(database):
-    """The rows of a database as dictionaries, with the tables of experiments and metrics.
-
-    `parts` of a row has the values of each metric that is of several parts of the run.
-    """
+def table(database, name):
+    """The rows of a table as dictionaries."""
     if not os.path.exists(database):
         raise FileNotFoundError(f"there is no database at {database}: tools/fleet/run makes one")
     db = sqlite3.connect(f"file:{database}?mode=ro", uri=True)
     db.row_factory = sqlite3.Row
+    return [dict(row) for row in db.execute(f"SELECT * FROM {name}")]
 
-    def table(name):
-        return [dict(row) for row in db.execute(f"SELECT * FROM {name}")]
 
-    runs = {r["key"]: {**r, "parts": {}} for r in table("runs")}
-    for part in table("parts"):
+def read(database):
+    """The runs of a database, with the tables of experiments and metrics by name.
+
+    `parts` of a run has the values of each metric that is of several parts of it.
+    """
+    runs = {r["key"]: {**r, "parts": {}} for r in table(database, "runs")}
+    for part in table(database, "parts"):
         runs[part["key"]]["parts"].setdefault(part["metric"], []).append(part["value"])
-    return list(runs.values()), {e["name"]: e for e in table("experiments")}, {m["name"]: m for m in table("metrics")}
+    return list(runs.values()), *({row["name"]: row for row in table(database, name)} for name in ("experiments", "metrics"))
 
 
 if __name__ == "__main__":

@@ -185,6 +185,8 @@ class Fleet(Folder):
         self.assertEqual(len(data["rows"]), 24)
         report = data["rows"][0][data["texts"].index("report")]
         self.assertEqual((self.folder / "out/new/c" / report).read_text(), "a page")
+        self.assertRegex(page, r'<a href="../doctor/a-\w+.json.html">a</a></td><td></td><td>imu 100 Hz</td><td>0.5 s, imu</td>')
+        self.assertIn("3 of imu: it was silent", page)
         twice = next(row for row in page.splitlines() if "scale=2" in row)
         self.assertRegex(twice, r'class="missed" title="2.000 to 2.000 \(95 %\), 6 pairs">2.000')
         self.assertEqual(self.run_fleet().returncode, 0)

@@ -53,7 +53,7 @@ class Page(unittest.TestCase):
 
     def test_a_table_pools_the_outages_of_all_runs_and_of_each_recording(self):
         experiment = {"metrics": ["outage_drift"], "by": "recording"}
-        plan = {"experiments": {"e": experiment}, "results": str(self.folder), "runs": ["a", "b"]}
+        plan = {"experiments": {"e": experiment}, "results": str(self.folder), "runs": ["a", "b"], "examined": {}}
         for key, drifts in (("a", [1.0, 2.0]), ("b", [9.0])):
             outages = [{"drift_percent": d, "covered": 1.0} for d in drifts]
             record = {**dict.fromkeys(results.TEXTS, ""), "key": key, "experiment": "e", "recording": "drive-" + key,
