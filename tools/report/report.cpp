@@ -117,6 +117,7 @@ void write_report(const std::filesystem::path& file, const ReplayReport& r) {
   page.add(heading("Events")).add_events().add(accuracy(result));
   add_roads(page, scene);
   add_ppp(page, scene);
+  add_calibration(page, scene);
   page.add(heading("Health") + notes(health.degraded));
   page.add(heading(loss_heading) + losses(result));
   page.add(heading(latency_heading));

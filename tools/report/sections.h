@@ -66,6 +66,9 @@ std::vector<web::Plot> state_plots(const Scene& scene);
 // recording contains the links driven.
 void add_roads(web::Page& page, const Scene& scene);
 
+// Adds what the filter has estimated of the car and its sensors, and how, if it has started.
+void add_calibration(web::Page& page, const Scene& scene);
+
 // Adds the results of precise point positioning, if there were observations. Errors are those of
 // the antenna against the truth.
 void add_ppp(web::Page& page, const Scene& scene);

@@ -59,21 +59,26 @@ std::map<Time, PppState> ppp_of(double seconds) {
 using Matches = std::map<Time, tools::RoadMoment>;
 using Reference = std::vector<ReferencePose>;
 
-std::string page_of(const tools::ReplayResult& result, Matches matches,
-                    std::map<Time, PppState> ppp, const Reference& reference) {
+std::string page_of(const tools::ReplayResult& result, const tools::RunPass& pass,
+                    const Reference& reference) {
   vehicle::VehicleConfig config;
   config.fusion.gnss_lever_forward = antenna.x();
   config.fusion.gnss_lever_left = antenna.y();
   config.fusion.gnss_lever_up = antenna.z();
-  tools::RunPass pass;
-  pass.matches = std::move(matches);
-  pass.ppp_states = std::move(ppp);
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "report.html";
   write_report(file, {result, pass, reference, config});
   std::stringstream text;
   text << std::ifstream(file).rdbuf();
   return text.str();
+}
+
+std::string page_of(const tools::ReplayResult& result, Matches matches,
+                    std::map<Time, PppState> ppp, const Reference& reference) {
+  tools::RunPass pass;
+  pass.matches = std::move(matches);
+  pass.ppp_states = std::move(ppp);
+  return page_of(result, pass, reference);
 }
 
 bool has(const std::string& page, const std::string& part) {
@@ -145,6 +150,33 @@ TEST(Report, WhatWasOutOfTheOrdinaryIsOnTheTimeline) {
 
 TEST(Report, ARunWithoutAnythingHasAPageToo) {
   EXPECT_TRUE(has(page_of({}, {}, {}, {}), "Way of the vehicle"));
+}
+
+TEST(Report, CalibrationShowsTheBestObservedPropertyFirst) {
+  tools::RunPass pass;
+  for (int second = 0; second < 3; ++second) {
+    tools::CalibrationMoment moment{at(second), {}};
+    moment.properties[0] = {"axle", "rear axle behind the origin", "m", 0.8, 0.95, 1.0};
+    moment.properties[1] = {"scale", "scale of wheels", "%", 1.0, 0.4 - 0.1 * second, 1.0};
+    pass.calibrations.push_back(moment);
+  }
+  const std::string page = page_of(tools::ReplayResult{}, pass, {});
+  EXPECT_TRUE(has(page, "Calibration on the drive"));
+  EXPECT_TRUE(has(page, "The car as it was described"));
+  const auto best = page.find("<td>scale of wheels</td><td>1.000</td><td>0.200</td>"),
+             other = page.find("<td>rear axle behind the origin</td>");
+  ASSERT_NE(best, std::string::npos);
+  EXPECT_LT(best, other);
+  EXPECT_TRUE(has(page.substr(other), "<td>95</td><td>not yet</td>"));
+  EXPECT_TRUE(has(page, "\"title\":\"scale of wheels\""));
+  EXPECT_FALSE(has(page, "\"title\":\"rear axle behind the origin\""))
+      << "the drive has hardly shown it";
+}
+
+TEST(Report, FilterThatHasNotStartedHasNoCalibration) {
+  tools::RunPass pass;
+  pass.calibrations.push_back({at(0.0), {}});
+  EXPECT_FALSE(has(page_of(tools::ReplayResult{}, pass, {}), "Calibration on the drive"));
 }
 
 }  // namespace
