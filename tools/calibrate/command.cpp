@@ -16,6 +16,7 @@
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/progress.h"
 #include "tools/evaluate/text_file.h"
 
 namespace maploop::tools {
@@ -86,11 +87,10 @@ nlohmann::json result_json(const calibrate::StereoResult& r,
 
 calibrate::FoundViews find_views(const calibrate::Board& board,
                                  const calibrate::ImagePairs& pairs) {
-  const bool terminal = isatty(STDERR_FILENO) != 0;
+  Progress progress("pairs searched for the board");
   auto found = calibrate::find_views(board, pairs.pairs, [&](std::size_t done) {
-    if (terminal) std::fprintf(stderr, "\rfinding boards: %zu of %zu", done, pairs.pairs.size());
+    progress.at(static_cast<double>(done), static_cast<double>(pairs.pairs.size()));
   });
-  if (terminal) std::fprintf(stderr, "\r%40s\r", "");
   found.unusable.insert(found.unusable.begin(), pairs.unpaired.begin(), pairs.unpaired.end());
   return found;
 }

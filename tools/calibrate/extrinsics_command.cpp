@@ -17,6 +17,7 @@
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
+#include "tools/command/progress.h"
 #include "tools/command/terminal.h"
 #include "tools/evaluate/text_file.h"
 
@@ -35,12 +36,14 @@ void forget_mount(vehicle::VehicleConfig& config) {
     config.given.erase(std::string("vehicle.imu.") + key);
 }
 
-extrinsics::Progress progress_of(const vehicle::Recording& recording) {
-  if (isatty(STDERR_FILENO) == 0) return {};
-  return [first = recording.first_stamp, last = recording.last_stamp](Time t) {
-    show_status(STDERR_FILENO,
-                fmt::format("{:.0f} of {:.0f} s", to_seconds(t - first), to_seconds(last - first)));
-  };
+extrinsics::Measurements measured_with_progress(const vehicle::Recording& recording,
+                                                const vehicle::VehicleConfig& config,
+                                                const extrinsics::Stretch& stretch) {
+  Progress progress("s of data");
+  const Time first = recording.first_stamp;
+  return extrinsics::measure(recording, config, stretch, [&](Time t) {
+    progress.at(to_seconds(t - first), to_seconds(recording.last_stamp - first));
+  });
 }
 
 int calibrate_extrinsics(const ExtrinsicsOptions& options) {
@@ -54,9 +57,7 @@ int calibrate_extrinsics(const ExtrinsicsOptions& options) {
   extrinsics::Stretch stretch;
   if (options.start > 0.0) stretch.from = recording.first_stamp + from_seconds(options.start);
   if (options.end > 0.0) stretch.to = recording.first_stamp + from_seconds(options.end);
-  const extrinsics::Progress progress = progress_of(recording);
-  const auto measured = extrinsics::measure(recording, config, stretch, progress);
-  if (progress) show_status(STDERR_FILENO, "");
+  const auto measured = measured_with_progress(recording, config, stretch);
   const extrinsics::Extrinsics found = extrinsics::find_extrinsics(measured, config.vehicle);
   if (found.pairs.empty() && !measured.inertial.mount) {
     throw std::runtime_error(

@@ -5,14 +5,19 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
-#include <utility>
+#include <string>
 
 #include "tools/command/terminal.h"
 #include "tools/command/usage_text.h"
 
 namespace maploop::tools {
 namespace {
+
+void say(const std::string& error) {
+  std::cerr << in_colour(STDERR_FILENO, "maploop: " + error + '\n');
+}
 
 // Whether everything that was printed has arrived at its terminal, file or pipe.
 bool printed_all() {
@@ -25,10 +30,7 @@ bool printed_all() {
 int run(const Program& program, int argc, char** argv) {
   CLI::App app{"maploop: vehicle localization in real time", program.name};
   app.require_subcommand(1);
-  app.formatter_fn(
-      [usual = CLI::Formatter()](const CLI::App* of, std::string name, CLI::AppFormatMode mode) {
-        return wrapped(usual.make_help(of, std::move(name), mode), columns_of(STDOUT_FILENO));
-      });
+  app.formatter(std::make_shared<HelpFormatter>());
   app.footer(
       "Pages that a help text names are in the source tree, and below share/doc/maploop where "
       "maploop is installed.");
@@ -39,17 +41,17 @@ int run(const Program& program, int argc, char** argv) {
     app.parse(argc, argv);
     const int status = command();
     if (printed_all()) return status;
-    std::cerr << "maploop: standard output was not taken: it is closed, or its disk is full\n";
+    say("standard output was not taken: it is closed, or its disk is full");
     return status != 0 ? status : 1;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    std::cerr << usage_error(app, e);
+    std::cerr << in_colour(STDERR_FILENO, usage_error(app, e));
     return exit_usage;
   } catch (const std::bad_alloc&) {
-    std::cerr << "maploop: this machine has too little memory for what was asked\n";
+    say("this machine has too little memory for what was asked");
     return 1;
   } catch (const std::exception& e) {
-    std::cerr << "maploop: " << e.what() << '\n';
+    say(e.what());
     return 1;
   }
 }

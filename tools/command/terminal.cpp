@@ -4,6 +4,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -61,6 +63,35 @@ int interrupted_status() {
 bool is_screen(int stream) {
   const char* terminal = std::getenv("TERM");
   return isatty(stream) != 0 && terminal != nullptr && std::string_view(terminal) != "dumb";
+}
+
+std::string in_colour(int stream, const std::string& text) {
+  const char* unwanted = std::getenv("NO_COLOR");  // https://no-color.org
+  if (!is_screen(stream) || (unwanted != nullptr && *unwanted != '\0')) return text;
+  constexpr int good = 32, warning = 33, bad = 31;  // of ECMA-48
+  struct Word {
+    std::string_view word;
+    int colour;
+  };
+  constexpr std::array words{Word{"granted", good},    Word{"limiting", warning},
+                             Word{"unknown", warning}, Word{"Note:", warning},
+                             Word{"refused", bad},     Word{"maploop:", bad}};
+  std::string result;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    const auto* const found = std::find_if(words.begin(), words.end(),
+                                           [&](const Word& w) { return line.starts_with(w.word); });
+    if (found == words.end()) {
+      result += line;
+    } else {
+      result +=
+          "\x1b[" + std::to_string(found->colour) + 'm' + std::string(found->word) + "\x1b[0m";
+      result += line.substr(found->word.size());
+    }
+    begin = end;
+  }
+  return result;
 }
 
 std::size_t columns_of(int stream) {

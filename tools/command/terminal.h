@@ -22,6 +22,9 @@ int interrupted_status();
 
 // Whether the stream (STDOUT_FILENO, STDERR_FILENO) is a terminal that understands escape codes.
 bool is_screen(int stream);
+// Gives the words that begin lines the colour of their meaning ("granted", "limiting", "refused",
+// "Note:", "maploop:"). Returns `text` as it is where the stream is no screen, or NO_COLOR is set.
+std::string in_colour(int stream, const std::string& text);
 // Of the terminal behind the stream; 80 where it is none.
 std::size_t columns_of(int stream);
 // Writes `text` over the status line, cut to the terminal's width; an empty one clears the line.

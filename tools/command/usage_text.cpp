@@ -1,9 +1,14 @@
 #include "tools/command/usage_text.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "runtime/core/nearest_name.h"
+#include "tools/command/examples.h"
+#include "tools/command/terminal.h"
 
 namespace maploop::tools {
 namespace {
@@ -46,11 +51,6 @@ const CLI::App& innermost(const CLI::App& app) {
   return *at;
 }
 
-std::string words_of(const CLI::App& app) {
-  return app.get_parent() == nullptr ? app.get_name()
-                                     : words_of(*app.get_parent()) + ' ' + app.get_name();
-}
-
 std::vector<std::string> names_below(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
@@ -84,6 +84,34 @@ std::string wrapped(std::string_view text, std::size_t width) {
     text.remove_prefix(end + 1);
   }
   return result;
+}
+
+std::string words_of(const CLI::App& app) {
+  return app.get_parent() == nullptr ? app.get_name()
+                                     : words_of(*app.get_parent()) + ' ' + app.get_name();
+}
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
+                                     CLI::AppFormatMode mode) const {
+  return wrapped(CLI::Formatter::make_help(app, std::move(name), mode), columns_of(STDOUT_FILENO));
+}
+
+std::string HelpFormatter::make_description(const CLI::App* app) const {
+  constexpr std::size_t most = 3;
+  const std::string words = words_of(*app);
+  const std::size_t end = std::min(words.find(' '), words.size());
+  const std::vector<std::string> below = names_below(*app);  // not every program has all commands
+  std::size_t count = 0;
+  std::string lines;
+  for (const std::string_view line :
+       examples(std::string_view(words).substr(std::min(end + 1, words.size())))) {
+    const bool has_it = app->get_parent() != nullptr ||
+                        std::ranges::count(below, line.substr(0, line.find(' '))) > 0;
+    if (has_it && count++ < most)
+      lines += "    " + words.substr(0, end) + ' ' + std::string(line) + '\n';
+  }
+  const std::string usual = CLI::Formatter::make_description(app);
+  return lines.empty() ? usual : usual + "\nExamples:\n" + lines + '\n';
 }
 
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {

@@ -15,6 +15,7 @@
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"
 #include "tools/command/options.h"
+#include "tools/command/progress.h"
 #include "tools/doctor/memory_report.h"
 #include "tools/doctor/recording_health.h"
 #include "tools/doctor/recording_report.h"
@@ -65,7 +66,10 @@ std::vector<TimeOffset> compare_stamps(const vehicle::Recording& recording,
   try {
     const extrinsics::Stretch stretch = turning_stretch(recording);
     append(sentences, cut_off_images(recording, stretch));
-    std::vector<TimeOffset> offsets = time_offsets(recording, config, stretch);
+    Progress progress("s of data whose stamps are compared");
+    std::vector<TimeOffset> offsets = time_offsets(recording, config, stretch, [&](Time at) {
+      progress.at(to_seconds(at - stretch.from), to_seconds(stretch.to - stretch.from));
+    });
     append(sentences, advice(offsets, path));
     return offsets;
   } catch (const std::invalid_argument& e) {
@@ -74,11 +78,25 @@ std::vector<TimeOffset> compare_stamps(const vehicle::Recording& recording,
   }
 }
 
+double seconds_of(const vehicle::Recording& recording) {
+  return to_seconds(recording.last_stamp - recording.first_stamp);
+}
+
+std::vector<SensorHealth> examined(const vehicle::Recording& recording) {
+  std::optional<Progress> progress;
+  std::string_view read;  // the sensor whose progress it is
+  return examine(recording, [&](const char* sensor, Time at) {
+    if (read != sensor) progress.emplace(std::string("s of ") + sensor);
+    read = sensor;
+    progress->at(to_seconds(at - recording.first_stamp), seconds_of(recording));
+  });
+}
+
 void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig config) {
   const vehicle::KnownContents contents = vehicle::fit_to_recording(config, options.recording);
   const vehicle::Recording recording = vehicle::open_recording(options.recording, config, contents);
   RecordingReport report{options.recording.string(), recording.first_stamp, recording.last_stamp};
-  report.sensors = examine(recording);
+  report.sensors = examined(recording);
   report.sentences = recording.notes;
   append(report.sentences, advice(report.sensors, report.name));
   report.offsets = compare_stamps(recording, config, report.name, report.sentences);
@@ -98,7 +116,7 @@ int doctor(const DoctorOptions& options) {
   ask_for_threads(config, report);
   runtime::append(report, ask_for_bus(vehicle::bus_url(options.lcm_url, config.lcm_url)));
   const MemoryReport memory = memory_report(config);
-  std::cout << runtime::to_text(report) << to_text(memory);
+  std::cout << in_colour(STDOUT_FILENO, runtime::to_text(report)) << to_text(memory);
   if (!options.json.empty()) {
     write_json_file(options.json, {{"all_granted", report.all_granted()},
                                    {"memory", to_json(memory)},

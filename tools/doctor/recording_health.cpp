@@ -29,7 +29,8 @@ bool repeats(const ImuSample& a, const ImuSample& b) {
 template <class T>
 std::optional<SensorHealth> examine_sensor(const char* name,
                                            const std::unique_ptr<sensors::Source<T>>& source,
-                                           const vehicle::Recording& recording) {
+                                           const vehicle::Recording& recording,
+                                           const ExamineProgress& progress) {
   if (source == nullptr) return std::nullopt;
   const Time first = recording.first_stamp;
   const double part = std::max(to_seconds(recording.last_stamp - first), 1e-3) / SampleTimes::parts;
@@ -38,6 +39,7 @@ std::optional<SensorHealth> examine_sensor(const char* name,
   std::vector<double> periods, delays;
   T sample, previous;
   while (source->next(sample)) {
+    progress(name, sample.stamp);
     if (health.samples++ > 0) {
       const double period = to_seconds(sample.stamp - previous.stamp);
       if (period > health.longest_gap) {
@@ -109,11 +111,13 @@ const web::Columns<SensorHealth> sensor_health_columns{
     {"finding", "", 0, 0, &SensorHealth::finding},
 };
 
-std::vector<SensorHealth> examine(const vehicle::Recording& recording) {
+std::vector<SensorHealth> examine(const vehicle::Recording& recording,
+                                  const ExamineProgress& progress) {
   const vehicle::Sensors s = recording.sensors(Time::max());
   std::vector<SensorHealth> all;
   const auto add = [&](const char* name, const auto& source) {
-    if (auto health = examine_sensor(name, source, recording)) all.push_back(std::move(*health));
+    if (auto health = examine_sensor(name, source, recording, progress))
+      all.push_back(std::move(*health));
   };
   add("camera", s.camera);
   add("lidar", s.velodyne);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,13 @@ struct SensorHealth {
 
 extern const web::Columns<SensorHealth> sensor_health_columns;
 
+// How far a sensor is read, by the stamp of its last sample.
+using ExamineProgress = std::function<void(const char* sensor, Time at)>;
+
 // Reads every sensor to its end, without pixels and points.
-std::vector<SensorHealth> examine(const vehicle::Recording& recording);
+std::vector<SensorHealth> examine(
+    const vehicle::Recording& recording,
+    const ExamineProgress& progress = [](const char*, Time) {});
 
 // Returns sentences: what is wrong with the sensors, what can be computed from them, and which
 // command does it. `path` is how the user names the recording.

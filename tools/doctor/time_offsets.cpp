@@ -63,9 +63,10 @@ extrinsics::Stretch turning_stretch(const vehicle::Recording& recording) {
 
 std::vector<TimeOffset> time_offsets(const vehicle::Recording& recording,
                                      vehicle::VehicleConfig config,
-                                     const extrinsics::Stretch& stretch) {
+                                     const extrinsics::Stretch& stretch,
+                                     const extrinsics::Progress& progress) {
   vehicle::describe_car(config, recording.calibration);
-  const auto measured = extrinsics::measure(recording, config, stretch, {});
+  const auto measured = extrinsics::measure(recording, config, stretch, progress);
   std::vector<TimeOffset> offsets;
   for (const extrinsics::SensorPair& pair :
        extrinsics::find_extrinsics(measured, config.vehicle).pairs)

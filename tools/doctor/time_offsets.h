@@ -29,7 +29,8 @@ extrinsics::Stretch turning_stretch(const vehicle::Recording& recording);
 // long as their odometry, some ten seconds.
 std::vector<TimeOffset> time_offsets(const vehicle::Recording& recording,
                                      vehicle::VehicleConfig config,
-                                     const extrinsics::Stretch& stretch);
+                                     const extrinsics::Stretch& stretch,
+                                     const extrinsics::Progress& progress = {});
 
 // Returns sentences about what the offsets mean.
 std::vector<std::string> advice(const std::vector<TimeOffset>& offsets, const std::string& path);

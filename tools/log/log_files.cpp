@@ -12,6 +12,7 @@
 #include "msgs/lcm/decoded_message.h"
 #include "msgs/time.h"
 #include "sensors/replay/log_events.h"
+#include "tools/command/progress.h"
 
 namespace maploop::lcm_log {
 
@@ -26,34 +27,15 @@ schema::Schema load_types(std::span<const std::filesystem::path> files) {
   return schema::Schema(texts);
 }
 
-Progress::Progress(std::uint64_t bytes_of_all_work)
-    : total_(bytes_of_all_work),
-      terminal_(isatty(STDERR_FILENO) != 0),
-      next_(steady_clock::now() + std::chrono::seconds(1)) {}
-
-Progress::~Progress() {
-  if (shown_) std::fprintf(stderr, "\r%40s\r", "");
-}
-
-void Progress::show(std::uint64_t bytes_done) {
-  const auto now = steady_clock::now();
-  if (now < next_) return;
-  next_ = now + std::chrono::milliseconds(200);
-  shown_ = true;
-  const double done = static_cast<double>(bytes_done) * 1e-6;
-  const double all = static_cast<double>(total_) * 1e-6;
-  fmt::print(stderr, "\r{:10.0f} MB", done);
-  if (total_ > 0) fmt::print(stderr, " of {:.0f} MB  {:3.0f} %", all, 100.0 * done / all);
-}
-
 LogSummary read_log(const std::filesystem::path& file, const schema::Schema& schema,
                     const std::function<void(const LogEvent&)>& event,
                     const std::function<void(const Damage&)>& damage) {
   const auto log = sensors::open_log(file, schema);
-  Progress progress(log->file_size());
+  tools::Progress progress("MB");
+  const double megabytes = 1e-6 * static_cast<double>(log->file_size());
   LogSummary summary;
   for (auto item = log->next(); item != sensors::LogEvents::Item::end; item = log->next()) {
-    progress.at(log->file_position());
+    progress.at(1e-6 * static_cast<double>(log->file_position()), megabytes);
     if (item == sensors::LogEvents::Item::event) {
       ++summary.events;
       event(log->event());

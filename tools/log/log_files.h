@@ -1,7 +1,6 @@
 // These functions open, read and describe logs for all commands that read them.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -24,30 +23,6 @@ inline constexpr std::uint64_t most_printed = 1000;
 // Returns the project's own types and those of other .lcm files. Throws std::runtime_error naming
 // the file (and line) that cannot be read.
 schema::Schema load_types(std::span<const std::filesystem::path> files);
-
-// Shows a progress line on the terminal, for work that takes longer than a second; nothing if
-// standard error is not a terminal.
-class Progress {
- public:
-  explicit Progress(std::uint64_t bytes_of_all_work);  // 0: unknown
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  // It is cheap enough to be called for each event: it reads the clock once in 256 calls.
-  void at(std::uint64_t bytes_done) {
-    if (terminal_ && (++calls_ & 255U) == 0) show(bytes_done);
-  }
-
- private:
-  void show(std::uint64_t bytes_done);
-
-  std::uint64_t total_;
-  bool terminal_;
-  bool shown_ = false;
-  std::uint32_t calls_ = 0;
-  std::chrono::steady_clock::time_point next_;
-};
 
 struct LogSummary {
   std::uint64_t bytes = 0;  // uncompressed

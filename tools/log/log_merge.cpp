@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sensors/replay/log_events.h"
+#include "tools/command/progress.h"
 #include "tools/log/log_tools.h"
 #include "tools/log/log_writer.h"
 
@@ -33,13 +34,14 @@ LogSummary merge(std::span<const path> logs, const schema::Schema& schema, const
     if (advance(*reader)) waiting.push_back(std::move(reader));
   }
   LogWriter writer(output, schema);
-  Progress progress(all_bytes);
+  tools::Progress progress("MB");
   while (!waiting.empty()) {
     const auto earliest = std::min_element(
         waiting.begin(), waiting.end(),
         [](const auto& a, const auto& b) { return a->event().time_us < b->event().time_us; });
     writer.write((*earliest)->event());
-    progress.at(std::min(writer.bytes(), all_bytes));
+    progress.at(1e-6 * static_cast<double>(std::min(writer.bytes(), all_bytes)),
+                1e-6 * static_cast<double>(all_bytes));
     if (!advance(**earliest)) waiting.erase(earliest);
   }
   writer.close();

@@ -178,12 +178,6 @@ void add_match(CLI::App& app, Command& command) {
   sub->add_option("--labels", options->labels,
                   "CSV of the links really driven (frame,way_id,node_a,node_b,conf; plain or .gz; "
                   "frame: number of TRACK's row, from 0): print the share that is right");
-  sub->footer(
-      "Examples:\n"
-      "    maploop match town.osm.pbf track.gpx --html match.html  # with reasons\n"
-      "    maploop match town.net run.lcmlog --csv matched.csv     # of a recorded run\n"
-      "    maploop match town.net track.gpx --whole --route route.json\n"
-      "    maploop match town.net tracks/*.gpx --csv matched  # a folder of results");
   sub->callback([options, &command] {
     check_options(*options);
     command = [options] { return match_tracks(*options); };

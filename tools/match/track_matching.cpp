@@ -7,11 +7,11 @@
 #include <chrono>
 #include <iostream>
 #include <map>
-#include <mutex>
 #include <stdexcept>
 #include <thread>
 
 #include "mapmatch/match_history.h"
+#include "tools/command/progress.h"
 #include "tools/match/driven_route.h"
 #include "tools/match/match_summary.h"
 
@@ -43,32 +43,6 @@ std::string line(const std::string& name, const TrackResult& r) {
                      r.counts.fixes, percent(r.counts.matched), 100.0 * r.counts.doubtful_share(),
                      percent(r.counts.off_road), r.kilometres);
 }
-
-// Shows how many tracks are done, and how long the others will take, at most once a second.
-class TrackProgress {
- public:
-  explicit TrackProgress(std::size_t tracks) : tracks_(tracks) {}
-
-  void done_with_one() {
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    const auto now = Clock::now();
-    if (now < next_ && done_ < tracks_) return;
-    if (done_ == tracks_ && !shown_) return;
-    next_ = now + std::chrono::seconds(1);
-    shown_ = true;
-    const double left = to_seconds(now - start_) * static_cast<double>(tracks_ - done_) /
-                        static_cast<double>(done_);
-    std::cerr << fmt::format("matched {} of {} tracks, {:.0f} s left\n", done_, tracks_, left);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::size_t tracks_, done_ = 0;
-  std::mutex mutex_;
-  Clock::time_point start_ = Clock::now(), next_ = start_ + std::chrono::seconds(2);
-  bool shown_ = false;
-};
 
 // Returns the name of a track without its endings: "01" of "01.csv.gz".
 std::string name_of(const std::filesystem::path& file) {
@@ -112,7 +86,8 @@ void match_tracks(std::span<const std::filesystem::path> files,
   if (!outputs.empty()) refuse_equal_names(files);
   for (const TrackOutput& output : outputs) std::filesystem::create_directories(output.folder);
   std::vector<TrackResult> results(files.size());
-  TrackProgress progress(files.size());
+  tools::Progress progress("tracks");
+  std::atomic<std::size_t> done = 0;
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < files.size(); i = next++) {
@@ -129,7 +104,7 @@ void match_tracks(std::span<const std::filesystem::path> files,
       } catch (const std::exception& e) {
         result.error = e.what();
       }
-      progress.done_with_one();
+      progress.at(static_cast<double>(++done), static_cast<double>(files.size()));
     }
   };
   {

@@ -14,6 +14,7 @@
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
+#include "tools/command/progress.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/odometry/lidar_command.h"
 #include "tools/odometry/motion_csv.h"
@@ -73,7 +74,9 @@ int odometry_alone(const OdometryOptions& options) {
   }
   std::vector<odometry::Step> steps;
   odometry::CameraPath path(input.camera.T_body_cam);
+  Progress progress("frames");
   while (auto step = input.run()) {
+    progress.at(static_cast<double>(steps.size()));
     if (truth && options.motion == stereo::MotionMethod::image_to_image &&
         step->motion.status == OdometryStatus::ok)
       odometry::give_true_length(input.camera, *truth, step->motion);
@@ -150,14 +153,6 @@ void add_odometry(CLI::App& app, Command& command) {
                   "lengths")
       ->check(writable_file())
       ->excludes(lidar);
-  sub->footer(
-      "Examples:\n"
-      "    maploop odometry DRIVE --poses est.txt              # stereo cameras\n"
-      "    maploop odometry DRIVE --lidar --cloud street.ply   # LiDAR, seeded by them\n"
-      "    maploop odometry SCANS --lidar --save-map map.pcd   # LiDAR alone, from .pcd, .ply, "
-      ".bin\n"
-      "    maploop odometry DRIVE --lidar --method all         # registration methods, in a table\n"
-      "    maploop evaluate est.txt truth.txt --lengths 100    # then score it");
   sub->callback([options, &command] {
     if (!options->lidar.truth.empty() && options->json.empty() && !options->lidar.wanted)
       throw CLI::RequiredError("--truth scores --json or --lidar: one of them");

@@ -11,6 +11,7 @@
 #include "sensors/replay/files.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
+#include "tools/command/progress.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/odometry/comparison.h"
@@ -45,7 +46,9 @@ odometry::Compared run_method(Method method, LidarInput& input, const OdometryFi
   std::vector<double> times;
   double points = 0.0;
   int refused = 0;
+  Progress progress("scans by " + std::string(to_string(method)));
   while (const auto step = run.next()) {
+    progress.at(static_cast<double>(times.size()));
     add_pose(*step, input.T_body_cam, &path);
     if (!step->with_scan || step->lidar.status == OdometryStatus::first_frame) continue;
     times.push_back(step->milliseconds);
@@ -100,7 +103,6 @@ int compare(const LidarOdometryOptions& options, const OdometryFiles& files, Lid
       "seed; gicp and point-to-plane use its normals, those of PCL its positions. Times are "
       "processor times of a scan with its preparation, of PCL also with that of the map."};
   for (const Method method : methods) {
-    std::cerr << to_string(method) << " ...\n";
     comparison.methods.push_back(run_method(method, input, files, truth));
   }
   std::cout << to_text(comparison) << input.remarks();
@@ -241,7 +243,12 @@ int lidar_odometry_alone(const LidarOdometryOptions& options, const OdometryFile
   if (methods.size() > 1 || !options.truth.empty()) return compare(options, files, input, methods);
   Outputs outputs(options, files, input);
   LidarRun run = input.run(methods.front());
-  while (const auto step = run.next()) outputs.add(*step, run);
+  Progress progress("frames");
+  double done = 0.0;
+  while (const auto step = run.next()) {
+    outputs.add(*step, run);
+    progress.at(++done);
+  }
   outputs.write(run);
   return 0;
 }

@@ -16,6 +16,7 @@
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
+#include "tools/command/progress.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/text_lines.h"
 #include "tools/ppp/page.h"
@@ -131,7 +132,10 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
     r.scored_from = moment(options.score_start, "--score-start", first);
   if (on_map && r.truth)
     r.comparison = std::make_unique<gnss::MapComparison>(*r.truth, r.scored_from);
+  Progress progress("epochs");
+  const auto epochs = static_cast<double>(run.setup().observations().epochs.size());
   run.process([&](const ppp::PppSolution& s) {
+    progress.at(static_cast<double>(r.solutions.size()), epochs);
     if (!s.message.empty()) std::cerr << format_gps_time(s.time) << ": " << s.message << '\n';
     r.solved += s.status != PppStatus::none;
     if (r.score) r.score->add(s);
@@ -276,10 +280,6 @@ void add_ppp(CLI::App& app, Command& command) {
       ->needs(html)
       ->check(existing_file());
   sub->add_option("--json", options->json, "Write the figures as JSON")->check(writable_file());
-  sub->footer(
-      "Examples:\n"
-      "    maploop ppp drive.21o.gz brdc.21n.gz --html drive.html  # broadcast orbits\n"
-      "    maploop ppp drive.21o.gz *.SP3.gz *.CLK.gz *.atx.gz --pos out.pos");
   sub->callback([options, &command] { command = [options] { return positions(*options); }; });
 }
 

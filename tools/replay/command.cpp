@@ -114,11 +114,6 @@ void add_replay(CLI::App& app, Command& command, WritePage* write_page) {
          "antenna, inertial-mount, camera, rear-axle, inertial-stamps, gnss-stamps, "
          "camera-stamps or everything; nothing: rightly, with places that are as certain")
       ->check(parsed_by(property_named, "PROPERTY"));
-  sub->footer(
-      "Examples:\n"
-      "    maploop replay 2011_09_26/2011_09_26_drive_0013_sync  # as it was driven\n"
-      "    maploop replay DRIVE --lockstep --json drive.json      # as fast as it goes\n"
-      "    maploop replay DRIVE --map town.net --record run.lcmlog");
 }
 
 }  // namespace maploop::tools

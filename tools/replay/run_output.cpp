@@ -1,5 +1,7 @@
 #include "tools/replay/run_output.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <exception>
 #include <functional>
@@ -13,6 +15,7 @@
 #include "runtime/vehicle/output/black_box.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
+#include "tools/command/terminal.h"
 #include "tools/replay/nav_files.h"
 #include "tools/replay/recorder.h"
 #include "tools/report/report.h"
@@ -249,7 +252,8 @@ bool RunOutput::write(const ReplayResult& result, const RunPass& pass,
     });
   }
   // The verdict comes last, because its reader may be gone.
-  std::cout << verdict_text(result) << (options_.verbose ? format_table(result) : "");
+  std::cout << verdict_text(result)
+            << (options_.verbose ? in_colour(STDOUT_FILENO, format_table(result)) : "");
   return all;
 }
 

@@ -19,6 +19,7 @@
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
+#include "tools/command/progress.h"
 #include "tools/command/terminal.h"
 
 namespace maploop::tools {
@@ -27,26 +28,6 @@ namespace {
 struct SimulateOptions {
   std::filesystem::path out;
   simulate::SimulationOptions drive;
-};
-
-// A line that is overwritten on a terminal, a line every 10 s elsewhere.
-class FrameProgress {
- public:
-  void show(std::size_t done, std::size_t all) {
-    const auto now = Clock::now();
-    if (now < next_ && done < all) return;
-    next_ = now + std::chrono::milliseconds(terminal_ ? 200 : 10'000);
-    const double seconds = to_seconds(now - begin_);
-    const double left = seconds / static_cast<double>(done) * static_cast<double>(all - done);
-    std::fprintf(stderr, "%s%5zu of %zu frames, %.1f a second, %.0f s left %s",
-                 terminal_ ? "\r" : "", done, all, static_cast<double>(done) / seconds, left,
-                 terminal_ && done < all ? "" : "\n");
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  Clock::time_point begin_ = Clock::now(), next_ = begin_ + std::chrono::seconds(1);
 };
 
 // "49.01,8.43"
@@ -71,10 +52,10 @@ void add_choice(CLI::App* sub, const char* flag, Enum& value, const char* what) 
 
 int simulate_command(const SimulateOptions& options) {
   note_interrupts();
-  FrameProgress progress;
+  Progress progress("frames");
   const bool complete =
       simulate::simulate_drive(options.out, options.drive, [&](std::size_t done, std::size_t all) {
-        progress.show(done, all);
+        progress.at(static_cast<double>(done), static_cast<double>(all));
         return !interrupted();
       });
   if (!complete) {
