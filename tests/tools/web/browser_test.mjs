@@ -73,6 +73,27 @@ test("the dashboard follows a replay, controls it, and survives restarts of eith
   }
   await page.getByText(/[1-9]\d* features followed/).waitFor(patience);
 
+  await page.getByText("Curves of any signals").click();
+  const curve = page.locator(".curve canvas").first();
+  await curve.waitFor(patience);
+  await page.getByText("Signals: press one").click();
+  await page.getByLabel("Only signals whose name has").fill("lidar.p99");
+  await page.getByRole("button", { name: "Add a chart" }).click();
+  await page.getByRole("button", { name: "threads.lidar.p99_us", exact: true }).click();
+  assert.match(decodeURIComponent(page.url()), /#curves=NAV_STATE\/velocity_enu.0,NAV_STATE\/velocity_enu.1;DEADLINES\/threads.lidar.p99_us$/);
+  await page.waitForTimeout(1500);
+  assert.equal(await page.locator(".curve canvas").count(), 2);
+  for (const canvas of await page.$$(".curve canvas")) assert.ok(await canvas.evaluate(isDrawn), "curves are drawn");
+  const legend = page.locator(".curve").nth(1).locator(".u-legend");
+  assert.match(await legend.innerText(), /p99_us/);
+  await page.getByRole("button", { name: "Freeze" }).click();
+  await page.getByRole("button", { name: "Go on" }).click();
+  const linked = await open(desktop, page.url());
+  await linked.getByRole("button", { name: "DEADLINES/threads.lidar.p99_us ×" }).waitFor(patience);
+  await linked.screenshot({ path: join(pictures, "dashboard-curves.png") });
+  await linked.close();
+  await page.getByText("Curves of any signals").click();
+
   const others = await Promise.all([open(phone, url), open(desktop, url)]);
   for (const other of others) await other.getByText("aided").waitFor(patience);
   await others[0].screenshot({ path: join(pictures, "dashboard-phone.png") });

@@ -3,12 +3,14 @@ import "../design/tokens.css";
 import "../design/base.css";
 import "./dashboard.css";
 
+import { Curves } from "./curves";
 import { button, element } from "./dom";
 import { listen, trail, type Run, type Verdict } from "./live";
 import { LiveMap } from "./live_map";
 import { themeSwitch } from "./palette";
 import { showAids, showDeadlines, showHealth, showPpp, showRoad, showState } from "./panels";
 import { PlayerBar } from "./player";
+import { Signals } from "./signals";
 import { Views } from "./views";
 
 const silent_after = 3000; // ms
@@ -21,6 +23,8 @@ const legend = element("div", place, "", "legend");
 for (const [name, token] of [["truth", "truth"], ["fused", "fused"], ["fixes", "gnss"], ["matched", "matched"]] as const)
   element("span", legend, name).style.setProperty("--key", `var(--${token})`);
 const views = new Views(element("section", left, "", "views"));
+const signals = new Signals();
+new Curves(element("section", left, "", "curves"), signals);
 const side = element("aside", main);
 side.tabIndex = 0; // so that keys can scroll it
 element("h1", side, "maploop", "unseen");
@@ -135,8 +139,9 @@ listen(
       );
     }
   },
-  () => {
+  (channel, message) => {
     heardAt = performance.now();
     showNotice();
+    signals.take(channel, message);
   },
 );

@@ -191,8 +191,10 @@ export interface Messages {
 
 type Handlers = { [Channel in keyof Messages]: (message: Messages[Channel]) => void };
 
-// Goes on by itself when the server comes back. `connected` is told of each change.
-export function listen(handlers: Handlers, connected: (yes: boolean) => void, heard: () => void): void {
+// Goes on by itself when the server comes back. `connected` is told of each change, `heard` of each message of any channel.
+export function listen(
+  handlers: Handlers, connected: (yes: boolean) => void, heard: (channel: string, message: unknown) => void,
+): void {
   const source = new EventSource("/events");
   source.onopen = () => connected(true);
   source.onerror = () => {
@@ -205,7 +207,7 @@ export function listen(handlers: Handlers, connected: (yes: boolean) => void, he
   };
   source.onmessage = (event: MessageEvent<string>) => {
     const { channel, message } = JSON.parse(event.data) as { channel: keyof Messages; message: never };
-    heard();
+    heard(channel, message);
     handlers[channel]?.(message);
   };
 }
