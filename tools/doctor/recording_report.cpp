@@ -25,7 +25,7 @@ std::string when(const RecordingReport& report) {
 }
 
 // Draws a value of each part of the recording against the part's middle, joining parts of a slow
-// sensor so that five samples are expected in each.
+// sensor so that twenty samples are expected in each.
 std::vector<web::Plot> time_lines(const RecordingReport& report) {
   web::Plot samples{"Samples that can be used", "s", "% of the sensor's rate"};
   web::Plot delay{"Delivery after the stamp, longest", "s", "ms"};
@@ -34,7 +34,7 @@ std::vector<web::Plot> time_lines(const RecordingReport& report) {
     if (s.samples == 0 || s.rate == 0.0) continue;
     web::Line& count = samples.lines.emplace_back(web::Line{s.name, {}, {}});
     web::Line& late = delay.lines.emplace_back(web::Line{s.name, {}, {}});
-    constexpr double expected = 5.0;
+    constexpr double expected = 20.0;  // one more or less is 5 %
     const auto joined = std::clamp<std::size_t>(
         static_cast<std::size_t>(std::ceil(expected / (s.rate * part))), 1, SampleTimes::parts);
     for (std::size_t i = 0; i + joined <= SampleTimes::parts; i += joined) {

@@ -49,10 +49,11 @@ web::Plot convergence(const Scene& scene, std::size_t property) {
   const CalibratedProperty& last = moments.back().properties[property];
   web::Plot plot{std::string(last.name), "s", std::string(last.unit), {{"estimated", {}, {}}}};
   plot.over_time = true;
+  plot.in_readout = false;
   web::Band band{"3 sigma", {}, {}, {}};
   for (const CalibrationMoment& moment : moments) {
     const CalibratedProperty& p = moment.properties[property];
-    if (p.sigma_at_start <= 0.0) continue;
+    if (p.sigma <= 0.0) continue;  // the filter had not started
     const double second = scene.second(moment.at);
     plot.lines[0].add(second, p.value);
     band.x.push_back(second);

@@ -99,7 +99,8 @@ std::string to_json(const Plot& plot) {
          {"y_label", plot.y_label},       {"lines", json_of(plot.lines)},
          {"bands", json_of(plot.bands)},  {"roads", json_of(plot.roads)},
          {"equal_axes", plot.equal_axes}, {"x_log", plot.x_log},
-         {"y_log", plot.y_log},           {"over_time", plot.over_time}};
+         {"y_log", plot.y_log},           {"over_time", plot.over_time},
+         {"in_readout", plot.in_readout}};
   if (plot.x_mark) j["x_mark"] = {{"value", plot.x_mark->value}, {"name", plot.x_mark->name}};
   return script_json(j);
 }

@@ -42,6 +42,7 @@ struct Plot {
   std::vector<Band> bands = {};
   std::optional<Mark> x_mark = std::nullopt;
   bool over_time = false;  // x is finite, increases, and follows the timeline of the page, if any
+  bool in_readout = true;  // of a plot over time: its values are in the page's table at the cursor
 };
 
 // An event is at a time, or lasts for a while, on the timeline of a page.

@@ -54,7 +54,7 @@ async function drawAll(plots: Plot[], timeline?: Timeline, readout?: Readout): P
     if (plot.equal_axes) drawMap(figure, plot, timeline);
     else if (plot.over_time && timeline) linkedChart(figure, plot, timeline);
     else drawChart(figure, plot);
-    if (plot.over_time) readout?.addPlot(plot);
+    if (plot.over_time && plot.in_readout) readout?.addPlot(plot);
     await nextTask();
   }
 }

@@ -34,6 +34,7 @@ export interface Plot {
   y_log?: boolean;
   x_mark?: { value: number; name: string };
   over_time?: boolean; // x follows the timeline of the page
+  in_readout?: boolean; // its values are in the table at the cursor
   x_text?: (x: number) => string; // else the number
   height?: number; // px
 }
