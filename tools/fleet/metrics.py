@@ -56,17 +56,20 @@ NAVIGATION = {
     "azimuth_beyond": ("s", "azimuth_beyond_3_sigma_s", "The same time of the azimuth."),
     "way": ("m", "distance_m", "Way driven."),
 }
-COVERED = 0.97  # of an outage; in others the reference itself was silent
+# How much of an outage the reference must cover: all of it where its end is scored, else enough for a mean.
+COVERED, COVERED_AT_ALL = 0.97, 0.3
+AT_THE_END = ("drift_m", "drift", "azimuth_end", "nees_end")
 
 
 def add_navigation(name, unit, key, about):
     less_is_better = name not in ("way", "nees", "nees_end")
+    covered = COVERED if name in AT_THE_END else COVERED_AT_ALL
 
     def whole(output):
         return abs(output["navigation"][key])
 
     def outages(output):
-        scored = [o for o in output["navigation"]["outages"] if o["covered"] > COVERED]
+        scored = [o for o in output["navigation"]["outages"] if o["covered"] > covered]
         return [abs(o[key]) for o in scored if o[key] is not None]
 
     METRICS[name] = Metric(unit, whole, about, less_is_better)
@@ -149,16 +152,21 @@ def end_peer(output):
     return [end["reference_error_m"] for end in made_outages(output) if end["reference_error_m"] is not None]
 
 
+def share_right(part):
+    """In percent; nothing where no match was scored."""
+    return [100.0 * part["right"]] if part["fixes"] > 0 else []
+
+
 @metric("%", less_is_better=False)
 def links(output):
     """Share of the matches that are on the road really driven."""
-    return 100.0 * output["links"]["all"]["right"]
+    return share_right(output["links"]["all"])
 
 
 @metric("%", less_is_better=False)
 def links_certain(output):
     """Share of the matches that are on the road really driven, where that one is certain."""
-    return 100.0 * output["links"]["certain"]["right"]
+    return share_right(output["links"]["certain"])
 
 
 @metric("1")
