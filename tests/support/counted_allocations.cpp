@@ -184,6 +184,10 @@ long held_bytes() {
 void watch_allocations() {
   std::array<void*, 1> frames{};
   backtrace(frames.data(), 1);  // loads what it needs
+  for (std::size_t k = 0; k < std::min(threads_used.load(), most_threads); ++k) {
+    threads[k].count = 0;
+    threads[k].places_used = 0;
+  }
   watching.store(true);
 }
 
@@ -196,6 +200,7 @@ std::vector<WatchedThread> watched_allocations() {
   std::vector<WatchedThread> all;
   for (std::size_t k = 0; k < std::min(threads_used.load(), most_threads); ++k) {
     Watched& watched = threads[k];
+    if (watched.count == 0) continue;
     WatchedThread& thread = all.emplace_back();
     thread.name = watched.name.data();
     thread.allocations = watched.count;

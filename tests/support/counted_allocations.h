@@ -17,7 +17,8 @@ long thread_allocations();
 long held_bytes();
 
 // Between the two calls, each allocation of any thread is counted with the functions that led to
-// it, which slows the allocating thread. Threads may start and end meanwhile.
+// it, which slows the allocating thread. Threads may start and end meanwhile. What was counted
+// before is forgotten.
 void watch_allocations();
 void unwatch_allocations();
 

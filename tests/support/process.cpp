@@ -7,8 +7,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -20,6 +22,18 @@ std::string content(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
   return text.str();
+}
+
+// What was built with this program is perhaps for another processor: then MAPLOOP_EMULATOR starts
+// it.
+std::vector<std::string> as_started(const std::vector<std::string>& command) {
+  const char* emulator = std::getenv("MAPLOOP_EMULATOR");
+  const auto own = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  if (emulator == nullptr || std::filesystem::path(command[0]).parent_path() != own) return command;
+  std::istringstream words(emulator);
+  std::vector<std::string> started{std::istream_iterator<std::string>(words), {}};
+  started.insert(started.end(), command.begin(), command.end());
+  return started;
 }
 
 }  // namespace
@@ -40,9 +54,10 @@ bool comes_to_contain(const std::filesystem::path& file, const std::string& text
 }
 
 Process::Process(const std::vector<std::string>& command) {
+  const std::vector<std::string> started = as_started(command);
   std::vector<char*> arguments;
-  arguments.reserve(command.size() + 1);
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.reserve(started.size() + 1);
+  for (const std::string& word : started) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
 
   const std::string out = (folder_.path() / "out").string();
