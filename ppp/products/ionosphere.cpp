@@ -53,9 +53,13 @@ IonosphericDelay ionospheric_delay(const std::optional<NearestIonosphere>& coeff
                                    const Geodetic& site, double azimuth, double elevation,
                                    GpsTime t) {
   if (!coefficients) {
-    constexpr double zenith =
-        4.0;  // m: 25 TECU, between a quiet sun's night and an active one's day
-    return {0.0, zenith * ionospheric_slant(elevation)};
+    // Galileo's receivers take this level where they have none ("Ionospheric Correction Algorithm
+    // for Galileo Single Frequency Users", European Commission, 1.2, 2016). The sun's activity
+    // makes 0.7 to 2.2 times the delay of it.
+    constexpr IonisationLevel usual{{63.7, 0.0, 0.0}};
+    constexpr double share = 0.7;
+    const double delay = ionospheric_delay(usual, site, azimuth, elevation, t);
+    return {delay, share * delay};
   }
   // GPS chooses its coefficients for an error (root mean square) of half the delay, and changes
   // them every ten days.
@@ -68,7 +72,8 @@ IonosphericDelay ionospheric_delay(const std::optional<NearestIonosphere>& coeff
 
 std::string ionosphere_lack(std::optional<Duration> age) {
   if (!age) {
-    return "no ionospheric coefficients for these days: one frequency is used without a model of "
+    return "no ionospheric coefficients for these days: one frequency is used with a usual level "
+           "of "
            "the ionosphere; add a navigation file of that day or of a day close to it";
   }
   const auto days = std::lround(to_seconds(*age) / to_seconds(one_day));

@@ -40,8 +40,8 @@ struct IonosphericDelay {
   double value = 0.0, sigma = 0.0;
 };
 
-// Without coefficients, returns no delay and the standard deviation that results. `azimuth` and
-// `elevation` are in rad.
+// Without coefficients, returns the delay of a usual level of ionisation. `azimuth` and `elevation`
+// are in rad.
 IonosphericDelay ionospheric_delay(const std::optional<NearestIonosphere>& coefficients,
                                    const Geodetic& site, double azimuth, double elevation,
                                    GpsTime t);

@@ -114,7 +114,7 @@ TEST_F(SmoothedRun, HasNoConvergence) {
   const auto backward = accuracy(Direction::backward);
   const auto smoothed = accuracy(Direction::smoothed);
   EXPECT_GT(forward.horizontal_rmse, 0.05);
-  EXPECT_LT(backward.horizontal_rmse, 0.045);
+  EXPECT_LT(backward.horizontal_rmse, 0.048);
   EXPECT_LT(smoothed.horizontal_rmse, 0.015);
   EXPECT_LT(smoothed.up_rmse, 0.014);
   EXPECT_LT(smoothed.nees, 3.0);

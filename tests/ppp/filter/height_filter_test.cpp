@@ -80,7 +80,7 @@ TEST(HeightsInTheFilter, MakeTheHeightMoreCertainFromTheFirstEpoch) {
     free.process(without.epoch(i));
     ASSERT_LE(sigma_up(aided.solution()), sigma_up(free.solution()) + 1e-6) << i;
     if (i == 0) {
-      EXPECT_LT(sigma_up(aided.solution()), 0.9 * sigma_up(free.solution()));
+      EXPECT_LT(sigma_up(aided.solution()), 0.94 * sigma_up(free.solution()));
     }
   }
   EXPECT_GT(used, 60);

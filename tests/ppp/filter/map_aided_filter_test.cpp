@@ -88,7 +88,7 @@ TEST(MapAidedFilter, TheRoadDrawsTheSolutionAndLeavesTheOtherAlone) {
   });
   EXPECT_TRUE(filter.aided());
   EXPECT_GT(filter.count(MapUse::used), 50U);
-  EXPECT_GT(apart(filter), 0.05) << "lane and datum leave little of a metre";
+  EXPECT_GT(apart(filter), 0.03) << "lane and datum leave little of a metre";
   EXPECT_LT(apart(filter), 0.5);
   EXPECT_LT(filter.solution().covariance.trace(), filter.map_free().covariance.trace());
   EXPECT_EQ(filter.restorations(), 0U);
