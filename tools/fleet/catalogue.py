@@ -205,7 +205,8 @@ def make_plan(catalogue, made, only=()):
                    "seconds": r.get("seconds", 600.0)}
             run["megabytes"] = int(MEGABYTES + MEGABYTES_A_SECOND * run["seconds"])
             run["variant"] = variant_of(run)
-            files = [fingerprint(a) for a in own if os.path.isfile(a)]  # such as a map
+            # Such as a map; what is in a made folder follows from how that is made, and is perhaps not there yet.
+            files = [fingerprint(a) for a in own if os.path.isfile(a) and not a.startswith(r.get("folder", "\0"))]
             if run["program"]:
                 files += [file_hash(f) for f in sorted(Path(run["program"]).parent.iterdir()) if f.is_file()]
             runs[digest(experiment["name"], run["arguments"], r["identity"], *files)] = run

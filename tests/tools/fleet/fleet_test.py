@@ -94,6 +94,14 @@ class Catalogue(Folder):
         maps = {r["arguments"][4] for r in runs if r["repeat"] == 1}
         self.assertEqual(maps, {m["folder"] + "/map.osm" for m in plan["made"].values()})
 
+    def test_a_run_has_the_same_name_before_and_after_its_recording_is_made(self):
+        text = TEXT.replace("metrics", 'arguments = ["--truth", "{folder}/truth.tum"]\nmetrics').replace('["a", "made"]', '["made"]')
+        before = self.plan(text)
+        folder = Path(before["made"]["made"]["folder"])
+        folder.mkdir(parents=True)
+        (folder / "truth.tum").write_text("1\n")
+        self.assertEqual(set(before["runs"]), set(self.plan(text)["runs"]))
+
     def test_the_log_of_a_made_recording_can_take_its_place(self):
         plan = self.plan(TEXT.replace('config = "vehicle.toml"', 'config = "vehicle.toml"\nlog = true'))
         made = plan["made"]["made"]
