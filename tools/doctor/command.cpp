@@ -1,9 +1,13 @@
 // maploop doctor: how ready this machine is for real time, or how sound a recording is.
+#include <unistd.h>
+
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +20,7 @@
 #include "tools/command/json_output.h"
 #include "tools/command/options.h"
 #include "tools/command/progress.h"
+#include "tools/command/terminal.h"
 #include "tools/doctor/memory_report.h"
 #include "tools/doctor/recording_health.h"
 #include "tools/doctor/recording_report.h"

@@ -46,8 +46,9 @@ def collect(plan, database):
                    (found["recording"], found["split"], found["error"], json.dumps(found["sensors"]),
                     "\n".join(found["sentences"]), found["page"]))
     marks = ", ".join("?" * len(columns))
-    for key in plan["runs"]:
-        record = json.loads((Path(plan["results"]) / f"{key}.json").read_text())
+    for key, setup in plan["runs"].items():
+        # What the catalogue says now, such as tags and split, is not what it said when the run was made.
+        record = {**json.loads((Path(plan["results"]) / f"{key}.json").read_text()), **setup}
         db.execute(f"INSERT INTO runs VALUES ({marks})", row_of(record))
         for name in plan["experiments"][record["experiment"]]["metrics"]:
             parts = values(name, record["output"] or {})

@@ -53,7 +53,7 @@ class Page(unittest.TestCase):
 
     def test_a_table_pools_the_outages_of_all_runs_and_of_each_recording(self):
         experiment = {"metrics": ["outage_drift"], "by": "recording"}
-        plan = {"experiments": {"e": experiment}, "results": str(self.folder), "runs": ["a", "b"], "examined": {}}
+        plan = {"experiments": {"e": experiment}, "results": str(self.folder), "runs": {"a": {"split": "score"}, "b": {}}, "examined": {}}
         for key, drifts in (("a", [1.0, 2.0]), ("b", [9.0])):
             outages = [{"drift_percent": d, "covered": 1.0} for d in drifts]
             record = {**dict.fromkeys(results.TEXTS, ""), "key": key, "experiment": "e", "recording": "drive-" + key,
@@ -63,6 +63,7 @@ class Page(unittest.TestCase):
         results.collect(plan, self.folder / "runs.sqlite")
         runs, experiments, metrics = results.read(self.folder / "runs.sqlite")
         self.assertEqual([r["outage_drift"] for r in runs], [1.5, 9.0])
+        self.assertEqual([r["split"] for r in runs], ["score", ""], "as the catalogue says now")
         rows = re.findall(r"<tr data.*?</tr>", page.experiment_part("e", experiments["e"], runs, metrics))
         cells = [re.findall(r"<td>(.*?)</td>", row)[1:] for row in rows]
         self.assertEqual(cells[0][:5], ["x", "3", "4", "5.35", "2"], "name, values, mean, rms, median")
