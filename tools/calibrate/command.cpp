@@ -1,7 +1,5 @@
 // maploop calibrate: two cameras from images of a chessboard; with extrinsics, the sensors' places.
-#include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>

@@ -1,6 +1,4 @@
 // maploop calibrate extrinsics: where the sensors of a recorded drive are, and how late.
-#include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -18,7 +16,6 @@
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/command/progress.h"
-#include "tools/command/terminal.h"
 #include "tools/evaluate/text_file.h"
 
 namespace maploop::tools {

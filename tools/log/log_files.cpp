@@ -1,10 +1,7 @@
 #include "tools/log/log_files.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <stdexcept>
 
 #include "msgs/input_file.h"
@@ -15,8 +12,6 @@
 #include "tools/command/progress.h"
 
 namespace maploop::lcm_log {
-
-using std::chrono::steady_clock;
 
 schema::Schema load_types(std::span<const std::filesystem::path> files) {
   const auto own = schema::own_types();

@@ -1,12 +1,8 @@
 // maploop simulate: a drive through a generated town.
 #include "tools/simulate/simulation.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
