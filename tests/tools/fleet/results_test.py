@@ -8,6 +8,7 @@ import re
 import shutil
 import sys
 import tempfile
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -104,6 +105,22 @@ class Figures(unittest.TestCase):
         self.assertEqual(self.figures.table_of(spec, self.RUNS), [
             "|  | mean | of a | values | loss, % |", "|---|---|---|---|---|",
             "| before | 1.5 | 1 | 2 | 0 |", "| new | 3 | 3 | 1 | 100 |"])
+
+    def test_the_tables_of_our_pages_name_what_there_is(self):
+        tables = 0
+        for side in FLEET.parents[1].glob("*/**/FIGURES.md"):
+            for block in self.figures.BLOCK.finditer(side.read_text() if "build" not in side.parts else ""):
+                spec = tomllib.loads(block[2])
+                made = tomllib.loads((FLEET / f"catalogues/{spec['catalogue']}.toml").read_text())
+                experiments = {e["name"]: e for e in made["experiment"]}
+                asked = [column.split(";")[0].strip() for column in spec["columns"].values()]
+                for name in spec.get("experiments", experiments):
+                    self.assertIn(name, experiments, side)
+                metrics = {m for name in spec.get("experiments", experiments) for m in experiments[name]["metrics"]}
+                self.assertEqual([metric for metric in asked if metric not in metrics], [], side)
+                self.assertIn("| ", block[0], f"{side}: a table is empty")
+                tables += 1
+        self.assertGreater(tables, 15)
 
     def test_a_table_that_cannot_be_read_is_named_with_its_line(self):
         with tempfile.TemporaryDirectory() as folder:
