@@ -1,9 +1,12 @@
 #!/usr/bin/python3
-"""Makes or examines one recording, or makes one run, of a plan. The file of its result appears whole or not at all.
+"""Makes or examines one recording, or makes one run. The file of its result appears whole or not at all.
 
-    job.py make PLAN NAME
-    job.py doctor PLAN NAME RESULT
-    job.py run PLAN KEY RESULT LAST     LAST is 1 at the last attempt
+    job.py make SETUP
+    job.py doctor SETUP RESULT
+    job.py run SETUP RESULT LAST        LAST is 1 at the last attempt
+
+SETUP is what a plan says of it (catalogue.py), with the plan's binary, code and folder of results, as JSON: reading a
+plan of ten thousand runs would take longer than a short run.
 
 A run that ends with an error has a result that says so. One that was killed has none, so that it is tried again with
 more memory and time; at the last attempt it has a result, too.
@@ -22,15 +25,14 @@ from pathlib import Path
 PATIENCE = 20.0  # times the recording's length, and a minute
 
 
-def make(plan, name):
-    made = plan["made"][name]
+def make(made):
     folder = Path(made["folder"])
     partial = folder.with_name(folder.name + ".partial")
     shutil.rmtree(partial, ignore_errors=True)
     partial.parent.mkdir(parents=True, exist_ok=True)
-    subprocess.run([plan["binary"], *made["command"], "--out", partial], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([made["binary"], *made["command"], "--out", partial], check=True, stdout=subprocess.DEVNULL)
     if made["record"]:
-        subprocess.run([plan["binary"], *made["record"]], check=True, cwd=partial, stdout=subprocess.DEVNULL)
+        subprocess.run([made["binary"], *made["record"]], check=True, cwd=partial, stdout=subprocess.DEVNULL)
     shutil.rmtree(folder, ignore_errors=True)
     os.rename(partial, folder)
 
@@ -41,17 +43,16 @@ def write_whole(result, record):
     os.replace(partial, result)
 
 
-def doctor(plan, name, result):
+def doctor(setup, result):
     """What is in a recording, and how sound it is."""
-    setup = plan["examined"][name]
     with tempfile.TemporaryDirectory() as scratch:
         output = Path(scratch) / "output.json"
-        done = subprocess.run([plan["binary"], "doctor", setup["path"], *setup["arguments"], "--json", output, "--html", result + ".html"],
+        done = subprocess.run([setup["binary"], "doctor", setup["path"], *setup["arguments"], "--json", output, "--html", result + ".html"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
         found = json.loads(output.read_text()) if output.exists() else {}
     write_whole(result, {**setup, "error": done.stderr.strip()[-500:] if done.returncode else "",
                          "sensors": found.get("sensors", []), "sentences": found.get("sentences", []),
-                         "page": f"../doctor/{name}.json.html" if os.path.exists(result + ".html") else ""})
+                         "page": f"../doctor/{Path(result).name}.html" if os.path.exists(result + ".html") else ""})
 
 
 def processor():
@@ -61,21 +62,21 @@ def processor():
     return [platform.machine()]
 
 
-def run(plan, key, result, last):
-    setup = plan["runs"][key]
+def run(setup, result, last):
+    key = setup["key"]
     with tempfile.TemporaryDirectory() as scratch:
         output = Path(scratch) / "output.json"
         if setup["program"]:
-            raw = Path(plan["results"]).with_name("raw") / key
+            raw = Path(setup["results"]).with_name("raw") / key
             shutil.rmtree(raw, ignore_errors=True)
             raw.mkdir(parents=True)
-            command = [setup["program"], "--maploop", plan["binary"], "--raw", str(raw)]
+            command = [setup["program"], "--maploop", setup["binary"], "--raw", str(raw)]
         else:
-            command = [plan["binary"], setup["command"]]
+            command = [setup["binary"], setup["command"]]
             if setup["command"] == "replay":
                 command += ["--lockstep", "--no-lcm"]
         command += ["--json", str(output), *setup["arguments"]]
-        report = Path(plan["results"]).with_name("reports") / f"{key}.html"
+        report = Path(setup["results"]).with_name("reports") / f"{key}.html"
         if setup["report"]:
             report.parent.mkdir(exist_ok=True)
             command += ["--report", str(report)]
@@ -91,7 +92,7 @@ def run(plan, key, result, last):
             sys.exit(f"{key}: killed by signal {-status}; it is tried again")
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
         job = {"cpu_s": round(used.ru_utime + used.ru_stime, 3), "peak_mb": round(used.ru_maxrss / 1024.0, 1)}
-        record = {"schema": 1, "key": key, **setup, "code": plan["code"], "machine": processor(),
+        record = {"schema": 1, **setup, "machine": processor(),
                   "status": status, "error": said.strip()[-500:] if status else "",
                   "wall_s": round(time.monotonic() - began, 3),
                   "report": f"../reports/{key}.html" if report.exists() else "",
@@ -100,10 +101,10 @@ def run(plan, key, result, last):
 
 
 if __name__ == "__main__":
-    plan_of = json.loads(Path(sys.argv[2]).read_text())
+    what = json.loads(sys.argv[2])
     if sys.argv[1] == "make":
-        make(plan_of, sys.argv[3])
+        make(what)
     elif sys.argv[1] == "doctor":
-        doctor(plan_of, sys.argv[3], sys.argv[4])
+        doctor(what, sys.argv[3])
     else:
-        run(plan_of, sys.argv[3], sys.argv[4], sys.argv[5] == "1")
+        run(what, sys.argv[3], sys.argv[4] == "1")

@@ -47,8 +47,9 @@ def collect(plan, database):
                     "\n".join(found["sentences"]), found["page"]))
     marks = ", ".join("?" * len(columns))
     for key, setup in plan["runs"].items():
-        # What the catalogue says now, such as tags and split, is not what it said when the run was made.
-        record = {**json.loads((Path(plan["results"]) / f"{key}.json").read_text()), **setup}
+        record = json.loads((Path(plan["results"]) / f"{key}.json").read_text())
+        # The catalogue may have said something else when the run was made.
+        record.update({name: setup[name] for name in ("split", "tags") if name in setup})
         db.execute(f"INSERT INTO runs VALUES ({marks})", row_of(record))
         for name in plan["experiments"][record["experiment"]]["metrics"]:
             parts = values(name, record["output"] or {})
