@@ -14,7 +14,8 @@ struct Examples {
 const std::array all{
     Examples{"",
              {"replay DRIVE --report drive.html", "match town.osm.pbf track.gpx --html match.html",
-              "ppp drive.21o.gz brdc.21n.gz --pos drive.pos", "live car.toml --record run.lcmlog"}},
+              "ppp drive.21o.gz brdc.21n.gz --pos drive.pos", "live car.toml --record run.lcmlog",
+              "replay DRIVE --lockstep --json drive.json"}},
     Examples{"analyze", {"analyze run.lcmlog", "analyze run.lcmlog --cpus 4 --margin 1.5"}},
     Examples{"calibrate",
              {"calibrate PICTURES --board 9x6 --square 0.04 --html calibration.html",

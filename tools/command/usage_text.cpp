@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -59,6 +60,23 @@ std::vector<std::string> names_below(const CLI::App& app) {
   return names;
 }
 
+// Whether the program of this command understands an example: not every one has all commands and
+// options.
+bool is_understood(const CLI::App& app, std::string_view example) {
+  const CLI::App* command = &app;
+  while (command->get_parent() != nullptr) command = command->get_parent();
+  const CLI::App* const program = command;
+  std::istringstream words{std::string(example)};
+  for (std::string word; words >> word;) {
+    if (std::ranges::count(names_below(*command), word) > 0) {
+      command = command->get_subcommand(word);
+    } else if (word.starts_with("--") && command->get_option_no_throw(word) == nullptr) {
+      return false;
+    }
+  }
+  return command != program;
+}
+
 std::vector<std::string> options_of(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -99,17 +117,15 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
 std::string HelpFormatter::make_description(const CLI::App* app) const {
   constexpr std::size_t most = 3;
   const std::string words = words_of(*app);
-  const std::size_t end = std::min(words.find(' '), words.size());
-  const std::vector<std::string> below = names_below(*app);  // not every program has all commands
+  const std::string program = words.substr(0, words.find(' '));
+  const std::string command = words.substr(std::min(program.size() + 1, words.size()));
   std::size_t count = 0;
   std::string lines;
-  for (const std::string_view line :
-       examples(std::string_view(words).substr(std::min(end + 1, words.size())))) {
-    const bool has_it = app->get_parent() != nullptr ||
-                        std::ranges::count(below, line.substr(0, line.find(' '))) > 0;
-    if (has_it && count++ < most)
-      lines += "    " + words.substr(0, end) + ' ' + std::string(line) + '\n';
-  }
+  for (const std::string_view line : examples(command))
+    if (count < most && is_understood(*app, line)) {
+      lines += "    " + program + ' ' + std::string(line) + '\n';
+      ++count;
+    }
   const std::string usual = CLI::Formatter::make_description(app);
   return lines.empty() ? usual : usual + "\nExamples:\n" + lines + '\n';
 }
