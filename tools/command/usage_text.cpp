@@ -121,11 +121,11 @@ std::string HelpFormatter::make_description(const CLI::App* app) const {
   const std::string command = words.substr(std::min(program.size() + 1, words.size()));
   std::size_t count = 0;
   std::string lines;
-  for (const std::string_view line : examples(command))
-    if (count < most && is_understood(*app, line)) {
-      lines += "    " + program + ' ' + std::string(line) + '\n';
-      ++count;
-    }
+  for (const std::string_view line : examples(command)) {
+    if (count == most || !is_understood(*app, line)) continue;
+    lines += "    " + program + ' ' + std::string(line) + '\n';
+    ++count;
+  }
   const std::string usual = CLI::Formatter::make_description(app);
   return lines.empty() ? usual : usual + "\nExamples:\n" + lines + '\n';
 }
