@@ -182,6 +182,8 @@ def make_plan(catalogue, made, only=()):
         if only and experiment["name"] not in only:
             continue
         repeats = experiment.get("repeats", [[]])
+        program = experiment.get("program", "")
+        program_files = [file_hash(f) for f in sorted(Path(program).parent.iterdir()) if f.is_file()] if program else []
         for r, configuration, named, seed, fault, setting, repeat in itertools.product(
                 chosen_of(recordings.values(), experiment), experiment.get("configurations", [""]),
                 experiment["variants"], experiment.get("seeds", [0]), experiment.get("faults", [""]),
@@ -199,7 +201,7 @@ def make_plan(catalogue, made, only=()):
             if "config" in r:
                 arguments += ["--config", r["config"]]
             run = {"experiment": experiment["name"], "recording": r["name"], "split": r.get("split", ""),
-                   "command": experiment.get("command", "replay"), "program": experiment.get("program", ""),
+                   "command": experiment.get("command", "replay"), "program": program,
                    "tags": r.get("tags", []), "configuration": configuration, "named": named, "seed": seed,
                    "repeat": repeat, "fault": fault, "set": setting, "arguments": [r["path"], *arguments], "report": experiment.get("report", False),
                    "seconds": r.get("seconds", 600.0)}
@@ -207,9 +209,7 @@ def make_plan(catalogue, made, only=()):
             run["variant"] = variant_of(run)
             # Such as a map; what is in a made folder follows from how that is made, and is perhaps not there yet.
             files = [fingerprint(a) for a in own if os.path.isfile(a) and not a.startswith(r.get("folder", "\0"))]
-            if run["program"]:
-                files += [file_hash(f) for f in sorted(Path(run["program"]).parent.iterdir()) if f.is_file()]
-            runs[digest(experiment["name"], run["arguments"], r["identity"], *files)] = run
+            runs[digest(experiment["name"], run["arguments"], r["identity"], *files, *program_files)] = run
     used = {run["recording"] for run in runs.values()}
     made_of = {n: {"folder": r["folder"], "command": r["make"], "record": r.get("record", [])}
                for n, r in recordings.items() if "make" in r and n in used}

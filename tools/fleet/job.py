@@ -50,7 +50,7 @@ def doctor(setup, result):
         done = subprocess.run([setup["binary"], "doctor", setup["path"], *setup["arguments"], "--json", output, "--html", result + ".html"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
         found = json.loads(output.read_text()) if output.exists() else {}
-    write_whole(result, {**setup, "error": done.stderr.strip()[-500:] if done.returncode else "",
+    write_whole(result, {**setup, "error": (done.stderr.strip()[-500:] or f"it ended with status {done.returncode}") if done.returncode else "",
                          "sensors": found.get("sensors", []), "sentences": found.get("sentences", []),
                          "page": f"../doctor/{Path(result).name}.html" if os.path.exists(result + ".html") else ""})
 

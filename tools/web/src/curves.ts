@@ -102,8 +102,9 @@ export class Curves {
     this.list = element("div", whole, "", "charts");
     for (const names of chartsOf(location.hash)) this.append(names);
     setInterval(() => {
+      if (!whole.open || document.hidden) return;
       this.fillTree(filter.value);
-      if (whole.open && !this.frozen && !document.hidden) this.draw();
+      if (!this.frozen) this.draw();
     }, redrawn_every);
   }
 
