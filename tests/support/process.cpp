@@ -24,8 +24,8 @@ std::string content(const std::filesystem::path& file) {
   return text.str();
 }
 
-// What was built with this program is perhaps for another processor: then MAPLOOP_EMULATOR starts
-// it.
+// Returns the command that starts a program. A program beside this one may have been built for
+// another processor; MAPLOOP_EMULATOR then names the emulator that runs it.
 std::vector<std::string> as_started(const std::vector<std::string>& command) {
   const char* emulator = std::getenv("MAPLOOP_EMULATOR");
   const auto own = std::filesystem::read_symlink("/proc/self/exe").parent_path();

@@ -1,4 +1,4 @@
-// What each command is used for most: its help begins with it.
+// Lists the examples with which the help of each command begins.
 #pragma once
 
 #include <string_view>

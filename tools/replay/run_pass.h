@@ -58,7 +58,7 @@ struct RoadMoment : match::TimedMatch {
 
 RoadMoment road_moment(const MapMatch& match);
 
-// What the filter has estimated of the car by a time.
+// Holds the properties of the car as the filter estimated them at one time.
 struct CalibrationMoment {
   Time at;
   fusion::SelfCalibrations properties;
