@@ -64,12 +64,13 @@ class CompactReader {
   CompactReader(Lines& lines, Observations& result) : lines_(lines), result_(result) {
     lines.next();
     const double version = lines.number(0, 20, "version of compact RINEX");
-    if (version != 1.0 && version != 3.0)
-      lines.fail("unknown version; compact RINEX 1.0 and 3.0 are supported");
+    if (version != 1.0 && version != 3.0 && version != 3.1)
+      lines.fail("unknown version; compact RINEX 1.0, 3.0 and 3.1 are supported");
     if (!lines.next()) lines.fail("the file ends inside its header");
     in_force_ = read_observation_header(lines);
-    if (in_force_.version3() != (version == 3.0)) {
-      lines.fail("compact RINEX 1 must contain RINEX 2, and compact RINEX 3 must contain RINEX 3");
+    if (in_force_.version3() != (version >= 3.0)) {
+      lines.fail(
+          "compact RINEX 1 must contain RINEX 2, and compact RINEX 3 must contain RINEX 3 or 4");
     }
     result.header = in_force_.header;
   }

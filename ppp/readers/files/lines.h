@@ -75,6 +75,14 @@ class Lines {
   bool whole_ = true;
 };
 
+// Both concern the version of a RINEX file of observations or navigation.
+constexpr bool supported_rinex(double version) {
+  return (version >= 2.0 && version < 2.13) || (version >= 3.0 && version < 3.06) ||
+         (version >= 4.0 && version < 4.03);
+}
+inline constexpr const char* unknown_rinex =
+    "unknown version; RINEX 2.00 to 2.12, 3.00 to 3.05 and 4.00 to 4.02 are supported";
+
 // Parses a stamp of six numbers between blanks, "2020 06 25 00 00 30.0000000". A year of two digits
 // is within 1980 to 2079. Throws ReadError for the line.
 GpsTime parse_stamp(const Lines& lines, std::string_view text);

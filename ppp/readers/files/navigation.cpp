@@ -17,12 +17,12 @@ class NavigationReader {
   void read() {
     while (lines_.next()) {
       if (blank(lines_.line())) continue;
-      if (!read_message()) {
+      if (!(version_ < 4.0 ? read_message() : read_record())) {
         refuse("the file ends inside a message, which is left out");
         break;
       }
     }
-    keep_ionosphere();
+    keep_ionosphere_of_header();
   }
 
  private:
@@ -31,9 +31,7 @@ class NavigationReader {
       lines_.fail("a RINEX file starts with RINEX VERSION / TYPE");
     }
     version_ = lines_.number(0, 9, "version");
-    if (!(version_ >= 2.0 && version_ < 2.13) && !(version_ >= 3.0 && version_ < 3.06)) {
-      lines_.fail("unknown version; RINEX 2.00 to 2.12 and 3.00 to 3.05 are supported");
-    }
+    if (!supported_rinex(version_)) lines_.fail(unknown_rinex);
     three_ = version_ >= 3.0;
     const auto type = lines_.column(20, 1);
     if (type == "G" && !three_) {
@@ -62,7 +60,7 @@ class NavigationReader {
   }
 
   // A header does not contain the date of its coefficients: it is taken from the messages after it.
-  void keep_ionosphere() {
+  void keep_ionosphere_of_header() {
     GpsTime first = GpsTime::max(), last = GpsTime::min();
     const auto stretch = [&](const auto& messages) {
       for (const auto& m : messages) first = std::min(first, m.toe), last = std::max(last, m.toe);
@@ -74,6 +72,41 @@ class NavigationReader {
          {IonosphereCoefficients(klobuchar_), IonosphereCoefficients(level_)}) {
       if (plausible(c)) result_.ionosphere.push_back({c, first, last});
     }
+  }
+
+  // Reads a record of RINEX 4, which begins with a line such as "> EPH G01 LNAV", or passes over a
+  // line of one that is not used. Returns false if the file ended inside the record.
+  bool read_record() {
+    if (!lines_.line().starts_with('>')) {
+      if (passing_over_) return true;
+      lines_.fail("expected a record of RINEX 4, which begins with e.g. '> EPH G01 LNAV'");
+    }
+    const auto kind = lines_.column(2, 3), source = trimmed(lines_.column(6, 3));
+    const auto message = trimmed(lines_.column(10, 4));
+    constexpr std::array orbits{"LNAV", "INAV", "FNAV", "D1", "D2", "FDMA", "SBAS"};
+    const bool orbit = kind == "EPH" && std::ranges::find(orbits, message) != orbits.end();
+    const bool ionosphere = kind == "ION" && ((source.starts_with('G') && message == "LNAV") ||
+                                              (source.starts_with('E') && message == "IFNV"));
+    passing_over_ = !orbit;  // behind coefficients there are flags
+    if (!orbit && !ionosphere) {
+      ++result_.skipped;
+      return true;
+    }
+    return lines_.next() && (orbit ? read_message() : read_ionosphere(source.starts_with('E')));
+  }
+
+  bool read_ionosphere(bool galileo) {
+    const GpsTime sent = parse_stamp(lines_, lines_.column(4, 19));
+    IonosphereCoefficients coefficients;
+    if (galileo) coefficients = IonisationLevel{};
+    const auto read = [&](auto& of) {
+      if (!read_values(of.values.size())) return false;
+      std::copy_n(values_.begin(), of.values.size(), of.values.begin());
+      return true;
+    };
+    if (!std::visit(read, coefficients)) return false;
+    if (plausible(coefficients)) result_.ionosphere.push_back({coefficients, sent, sent});
+    return true;
   }
 
   // Returns false if the file ended inside the message.
@@ -95,7 +128,19 @@ class NavigationReader {
     const bool states = satellite.system == System::glonass || satellite.system == System::sbas;
     // Version 3.05 gives GLONASS a line of status flags.
     const bool flags = version_ >= 3.045 && satellite.system == System::glonass;
-    const std::size_t count = flags ? 19 : states ? 15 : 31;
+    if (!read_values(flags ? 19 : states ? 15 : 31)) return false;
+    if (satellite.system == System::sbas || satellite.system == System::navic) {
+      ++result_.skipped;
+    } else if (satellite.system == System::glonass) {
+      keep_glonass(satellite, stamp);
+    } else {
+      keep_kepler(satellite, stamp);
+    }
+    return true;
+  }
+
+  // Reads values from this line on. Returns false if the file ends before the last one.
+  bool read_values(std::size_t count) {
     const std::size_t indent = three_ ? 4 : 3;
     values_.fill(0.0);
     for (std::size_t i = 0; i < count; ++i) {
@@ -104,13 +149,6 @@ class NavigationReader {
       if (i >= 3 && place == 0 && !lines_.next()) return false;
       if (!lines_.whole() && lines_.line().size() < indent + 19 * (place + 1)) return false;
       values_[i] = lines_.number_or(indent + 19 * place, 19, 0.0, "value of a message");
-    }
-    if (satellite.system == System::sbas || satellite.system == System::navic) {
-      ++result_.skipped;
-    } else if (satellite.system == System::glonass) {
-      keep_glonass(satellite, stamp);
-    } else {
-      keep_kepler(satellite, stamp);
     }
     return true;
   }
@@ -172,7 +210,8 @@ class NavigationReader {
   Lines& lines_;
   NavigationFile& result_;
   double version_ = 0.0;
-  bool three_ = true;
+  bool three_ = true;          // whether the columns are those of RINEX 3 and 4
+  bool passing_over_ = false;  // the record of RINEX 4 that this line belongs to
   System default_system_ = System::gps;
   std::array<double, 31> values_{};
   Klobuchar klobuchar_;  // zero if not in the header

@@ -1,4 +1,4 @@
-// Reads RINEX navigation files 2.00 to 2.12 and 3.00 to 3.05.
+// Reads RINEX navigation files 2.00 to 2.12, 3.00 to 3.05 and 4.00 to 4.02.
 #pragma once
 
 #include <Eigen/Core>
@@ -58,7 +58,7 @@ struct BroadcastMessages {
 
 struct NavigationFile : BroadcastMessages {
   std::string file;
-  int skipped = 0;  // messages of SBAS and NavIC, which are not used
+  int skipped = 0;  // messages that are not used: SBAS, NavIC, CNAV and others of RINEX 4
   int refused = 0;  // messages with invalid values, and an incomplete one
   std::vector<std::string> refusals;
 };

@@ -205,10 +205,7 @@ HeaderInForce read_observation_header(Lines& lines) {
     lines.fail("a RINEX file starts with RINEX VERSION / TYPE");
   }
   header.version = lines.number(0, 9, "version");
-  const bool two = header.version >= 2.0 && header.version < 2.13;
-  const bool three = header.version >= 3.0 && header.version < 3.06;
-  if (!two && !three)
-    lines.fail("unknown version; RINEX 2.00 to 2.12 and 3.00 to 3.05 are supported");
+  if (!supported_rinex(header.version)) lines.fail(unknown_rinex);
   if (lines.column(20, 1) != "O") lines.fail("not an observation file: column 21 must contain O");
   const char type = columns(lines.line(), 40, 1).empty() ? ' ' : lines.line()[40];
   while (lines.next()) {
