@@ -1,6 +1,7 @@
 #include "ppp/gnss_files.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace maploop::ppp {
 
@@ -42,15 +43,37 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
     case FileKind::ocean_loading:
       files.ocean_loading.push_back(parse_blq(text, name));
       break;
+    case FileKind::ionosphere_maps:
+      files.ionosphere_maps.push_back(parse_ionex(text, name));
+      break;
+    case FileKind::attitude:
+      files.attitudes.push_back(parse_orbex(text, name));
+      break;
     case FileKind::unknown:
       throw ReadError(
           name + (text.empty() ? ": is empty" : "") +
           ": not in a known format; supported are RINEX observations, navigation and clocks, "
-          "compact RINEX, SP3, ANTEX, Bias-SINEX, DCB, ERP, BLQ, UBX, RTCM 3");
+          "compact RINEX, SP3, ANTEX, Bias-SINEX, DCB, ERP, BLQ, IONEX, ORBEX, UBX, RTCM 3");
   }
   if (!sent.kepler.empty() || !sent.glonass.empty() || !sent.ionosphere.empty() || sent.refused > 0)
     files.navigation.push_back(std::move(sent));
   return kind;
+}
+
+void append(GnssFiles& files, GnssFiles others) {
+  const auto move = [&](auto GnssFiles::*list) {
+    std::ranges::move(others.*list, std::back_inserter(files.*list));
+  };
+  move(&GnssFiles::observations);
+  move(&GnssFiles::navigation);
+  move(&GnssFiles::orbits);
+  move(&GnssFiles::clocks);
+  move(&GnssFiles::antennas);
+  move(&GnssFiles::biases);
+  move(&GnssFiles::earth_rotation);
+  move(&GnssFiles::ocean_loading);
+  move(&GnssFiles::ionosphere_maps);
+  move(&GnssFiles::attitudes);
 }
 
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {

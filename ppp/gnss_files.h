@@ -9,9 +9,11 @@
 #include "ppp/readers/files/clock.h"
 #include "ppp/readers/files/earth_rotation.h"
 #include "ppp/readers/files/file_kind.h"
+#include "ppp/readers/files/ionex.h"
 #include "ppp/readers/files/navigation.h"
 #include "ppp/readers/files/observation.h"
 #include "ppp/readers/files/ocean_loading.h"
+#include "ppp/readers/files/orbex.h"
 #include "ppp/readers/files/sp3.h"
 #include "ppp/readers/streams/rtcm3.h"
 #include "ppp/readers/streams/ubx.h"
@@ -20,14 +22,16 @@ namespace maploop::ppp {
 
 // Holds the content of the files by kind, one element for each file, in the order of reading.
 struct GnssFiles {
-  std::vector<Observations> observations;         // RINEX (also compact), UBX and RTCM 3
-  std::vector<NavigationFile> navigation;         // RINEX, and messages within UBX and RTCM 3
-  std::vector<OrbitFile> orbits;                  // SP3
-  std::vector<ClockFile> clocks;                  // RINEX clocks
-  std::vector<AntennaFile> antennas;              // ANTEX
-  std::vector<BiasFile> biases;                   // Bias-SINEX and DCB
-  std::vector<EarthRotationFile> earth_rotation;  // ERP
-  std::vector<OceanLoadingFile> ocean_loading;    // BLQ
+  std::vector<Observations> observations;          // RINEX (also compact), UBX and RTCM 3
+  std::vector<NavigationFile> navigation;          // RINEX, and messages within UBX and RTCM 3
+  std::vector<OrbitFile> orbits;                   // SP3
+  std::vector<ClockFile> clocks;                   // RINEX clocks
+  std::vector<AntennaFile> antennas;               // ANTEX
+  std::vector<BiasFile> biases;                    // Bias-SINEX and DCB
+  std::vector<EarthRotationFile> earth_rotation;   // ERP
+  std::vector<OceanLoadingFile> ocean_loading;     // BLQ
+  std::vector<IonosphereMapFile> ionosphere_maps;  // IONEX
+  std::vector<AttitudeFile> attitudes;             // ORBEX
 };
 
 // Reads one file, adds it to the list of its kind and returns that kind. Throws ReadError if it
@@ -35,6 +39,9 @@ struct GnssFiles {
 FileKind read_into(const std::filesystem::path& path, GnssFiles& files);
 // Does the same for a text that has been read already; `name` stands for it in errors.
 FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& files);
+
+// Moves the content of other files to the end of each list.
+void append(GnssFiles& files, GnssFiles others);
 
 // Returns the regular files of a folder, sorted by name.
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);

@@ -11,6 +11,7 @@
 #include "ppp/heights/height_model.h"
 #include "ppp/products/broadcast.h"
 #include "ppp/products/corrected.h"
+#include "ppp/products/ionosphere_maps.h"
 #include "ppp/products/precise.h"
 
 namespace maploop::ppp {
@@ -61,6 +62,12 @@ class PppSetup {
   const Ephemeris& ephemeris() const { return *inputs_.ephemeris; }
   // Returns whether these are precise products.
   bool precise() const { return precise_ != nullptr; }
+  // Returns whether they contain the biases of phases, which integers need.
+  bool phase_biases() const { return precise() && precise_->has_phase_biases(); }
+  // Returns how far the ionosphere's nearest coefficients are from a moment, 0 where electrons are
+  // known; nothing if there are none. `received` is that of the filter.
+  std::optional<Duration> age_of_ionosphere(GpsTime t,
+                                            const CorrectedEphemeris* received = nullptr) const;
   // Returns whether the receiver measures most satellites on one carrier only.
   bool one_frequency() const { return one_frequency_; }
   // On one frequency, the errors of broadcast orbits, clocks and ionosphere last longer than the
@@ -75,7 +82,7 @@ class PppSetup {
   void choose_products(const GnssFiles& files, const SetupOptions& options);
   void fill_inputs(const GnssFiles& files, const SetupOptions& options,
                    const ObservationHeader& header);
-  void choose_ionosphere();
+  void choose_ionosphere(const GnssFiles& files);
   void read_heights(const SetupOptions& options);
   void note_lacks_of_integers(const GnssFiles& files);
 
@@ -83,6 +90,7 @@ class PppSetup {
   const Observations* observations_ = nullptr;
   std::unique_ptr<BroadcastEphemeris> broadcast_;
   std::unique_ptr<PreciseEphemeris> precise_;
+  std::unique_ptr<IonosphereMaps> ionosphere_maps_;
   RangeInputs inputs_;
   std::unique_ptr<HeightModel> heights_;
   Earth earth_;

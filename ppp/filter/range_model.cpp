@@ -87,17 +87,31 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
   p.range += mapping.hydrostatic * zenith_.hydrostatic + mapping.wet * zenith_.wet;
   const bool masses = inputs_.ephemeris->centre_of_mass();
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
-  if (masses || use.wind_up) attitude = nominal_attitude(s, bodies_.sun);
+  const auto known = inputs_.ephemeris->attitude(m.satellite, time_);
+  if (known) {
+    attitude = known->toRotationMatrix();
+  } else if (masses || use.wind_up) {
+    attitude = nominal_attitude(s, bodies_.sun);
+  }
   add_phase_centres(m, attitude, local, p);
   if (use.wind_up) {
     wind_up_cycles = wind_up(attitude, R_enu_ecef_, difference, wind_up_cycles);
     p.wind_up = wind_up_cycles;
   }
-  p.in_shadow = masses && in_shadow(s, bodies_.sun);
-  p.ionosphere = ionospheric_delay(coefficients_, site_, p.azimuth, p.elevation, time_);
+  p.in_shadow = masses && !known && in_shadow(s, bodies_.sun);  // where it may turn otherwise
+  p.ionosphere = ionosphere(p.azimuth, p.elevation);
   p.ionosphere_slant = ionospheric_slant(p.elevation);
   p.ionosphere_distance = ionospheric_distance(p.elevation);
   return p;
+}
+
+IonosphericDelay RangeModel::ionosphere(double azimuth, double elevation) const {
+  for (const ElectronContent* known : inputs_.electrons) {
+    if (known == nullptr) continue;
+    if (const auto electrons = known->at(pierce_point(site_, azimuth, elevation), time_))
+      return ionospheric_delay(*electrons, elevation);
+  }
+  return ionospheric_delay(coefficients_, site_, azimuth, elevation, time_);
 }
 
 void RangeModel::add_phase_centres(const Measurement& m, const Eigen::Matrix3d& attitude,

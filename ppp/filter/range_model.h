@@ -30,6 +30,8 @@ struct RangeInputs {
   Eigen::Vector3d marker_to_antenna_enu{0, 0, 0};  // m; the solution is the marker's position
   const OceanLoading* ocean_loading = nullptr;
   const BroadcastIonosphere* ionosphere = nullptr;  // coefficients of its model; nullptr: none
+  // Where one of these knows the electrons, the model is not used; the first comes first.
+  std::array<const ElectronContent*, 2> electrons{};
   std::array<std::optional<int>, 100> glonass_channels{};
   Models models;
 };
@@ -75,6 +77,7 @@ class RangeModel {
   const ZenithDelay& zenith() const { return zenith_; }  // the values that predict() uses
 
  private:
+  IonosphericDelay ionosphere(double azimuth, double elevation) const;
   std::optional<SatelliteState> transmitter(const Measurement& m) const;
   void add_phase_centres(const Measurement& m, const Eigen::Matrix3d& attitude,
                          const Eigen::Vector3d& to_satellite_enu, PredictedRange& p) const;

@@ -96,12 +96,18 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
       tracked.new_source = memory.source != predicted->satellite.source;
     }
     if (tracked.new_source) open_ambiguity(state, m.satellite, parameters.source_change_sigma);
+    if (memory.integer != m.integer || memory.phase_jumps != predicted->satellite.phase_jumps)
+      state.remove_ambiguities(m.satellite);  // its phases have other biases than before
+    if (memory.last_code) bridge_ionosphere(tracked, memory, state);
     const bool new_message = memory.message != predicted->satellite.message;
     if (!set_range_states(state, tracked, t, since, new_message, model.ephemeris(), parameters)) {
       report.refused = PppRefusal::too_many;
       continue;
     }
     memory.source = predicted->satellite.source;
+    memory.integer = m.integer;
+    memory.phase_jumps = predicted->satellite.phase_jumps;
+    memory.ionosphere = predicted->ionosphere;
     memory.last_code = t;
     tracked.phase_good = m.has_phase();
     if (tracked.phase_good) {
@@ -119,6 +125,19 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
     state.remove_ambiguities(m.satellite);
   }
   return tracked_;
+}
+
+// Where the model's delay comes from another source than before, the satellite's own delay takes up
+// the difference: what was estimated goes on.
+void SatelliteTracker::bridge_ionosphere(const Tracked& tracked, Memory& memory,
+                                         FilterState& state) {
+  const IonosphericDelay& now = tracked.predicted.ionosphere;
+  if (memory.ionosphere.source == now.source) return;
+  const double step = now.value - memory.ionosphere.value;
+  const int own = state.find(tracked.measurement.satellite, Part::ionosphere);
+  if (own < 0) return;
+  state.x()[own] -= step;
+  memory.phase_less_range += tracked.measurement.ionosphere(Combination::range) * step;
 }
 
 PppSlip SatelliteTracker::look_for_slip(const Tracked& tracked, double interval,

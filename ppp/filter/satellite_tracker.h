@@ -60,14 +60,19 @@ class SatelliteTracker {
     double wind_up = 0.0;
     int epochs_away = 0;
     std::optional<GpsTime> last_code;
-    std::uint32_t source = 0;   // the source of orbit and clock
-    GpsTime message{};          // reference time of their broadcast message
-    double phase_less_range{};  // m, at the last epoch with a phase
+    std::uint32_t source = 0;  // the source of orbit and clock
+    bool integer = false;      // the biases of its phases were known
+    std::uint32_t phase_jumps = 0;
+    GpsTime message{};            // reference time of their broadcast message
+    double phase_less_range{};    // m, at the last epoch with a phase
+    IonosphericDelay ionosphere;  // of the model, at the last epoch
     template <class Archive>
     void archive(Archive& ar) {
-      ar(slips, dual, wind_up, epochs_away, last_code, source, message, phase_less_range);
+      ar(slips, dual, wind_up, epochs_away, last_code, source, integer, phase_jumps);
+      ar(message, phase_less_range, ionosphere.value, ionosphere.source);
     }
   };
+  static void bridge_ionosphere(const Tracked& tracked, Memory& memory, FilterState& state);
   PppSlip look_for_slip(const Tracked& tracked, double interval, const PppParameters& parameters,
                         FilterState& state);
 

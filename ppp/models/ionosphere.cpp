@@ -44,19 +44,6 @@ double pierce_angle(double elevation) {
          std::asin(earth_radius / (earth_radius + shell_height) * std::cos(elevation));
 }
 
-// A PiercePoint is where a ray crosses the shell, rad.
-struct PiercePoint {
-  double latitude, longitude;
-};
-
-PiercePoint pierce_point(const Geodetic& site, double azimuth, double elevation) {
-  const double angle = pierce_angle(elevation);
-  const double latitude = std::asin(std::sin(site.latitude) * std::cos(angle) +
-                                    std::cos(site.latitude) * std::sin(angle) * std::cos(azimuth));
-  const double sine = std::sin(angle) * std::sin(azimuth) / std::cos(latitude);
-  return {latitude, site.longitude + std::asin(std::clamp(sine, -1.0, 1.0))};
-}
-
 // Returns the vertical electron content above a place, TECU. Names and constants are those of
 // NTCM-G's description.
 double vertical_electrons(const IonisationLevel& level, const PiercePoint& at, int day_of_year,
@@ -99,11 +86,18 @@ double delay(const IonisationLevel& level, const Geodetic& site, double azimuth,
   const int day_of_year = static_cast<int>((today - new_year).count()) + 1;
   const double electrons = vertical_electrons(level, pierce_point(site, azimuth, elevation),
                                               day_of_year, to_seconds(utc - today) / 3600.0);
-  const double frequency = carrier_frequency(System::gps, '1');
-  return 40.3e16 / square(frequency) * ionospheric_slant(elevation) * electrons;
+  return delay_of_electrons * ionospheric_slant(elevation) * electrons;
 }
 
 }  // namespace
+
+PiercePoint pierce_point(const Geodetic& site, double azimuth, double elevation) {
+  const double angle = pierce_angle(elevation);
+  const double latitude = std::asin(std::sin(site.latitude) * std::cos(angle) +
+                                    std::cos(site.latitude) * std::sin(angle) * std::cos(azimuth));
+  const double sine = std::sin(angle) * std::sin(azimuth) / std::cos(latitude);
+  return {latitude, site.longitude + std::asin(std::clamp(sine, -1.0, 1.0))};
+}
 
 double ionospheric_distance(double elevation) {
   return 1e-3 * earth_radius * pierce_angle(elevation);

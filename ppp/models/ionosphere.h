@@ -13,10 +13,19 @@ namespace maploop::ppp {
 double ionospheric_delay(const IonosphereCoefficients& coefficients, const Geodetic& site,
                          double azimuth, double elevation, GpsTime t);
 
+// A PiercePoint is where a ray crosses a thin shell at 450 km above the earth, rad.
+struct PiercePoint {
+  double latitude = 0.0, longitude = 0.0;
+};
+PiercePoint pierce_point(const Geodetic& site, double azimuth, double elevation);
+
+// One TECU, 10^16 electrons per square metre, delays GPS L1 by this, m.
+inline constexpr double delay_of_electrons = 40.3e16 / (1575.42e6 * 1575.42e6);
+
 // Returns how far from the receiver the signal crosses that shell, 1000 km along the ground.
 double ionospheric_distance(double elevation);
 
-// Returns the slant delay relative to the vertical one, for a thin shell at 450 km as in NTCM-G.
+// Returns the slant delay relative to the vertical one, for that shell as in NTCM-G.
 double ionospheric_slant(double elevation);
 
 }  // namespace maploop::ppp

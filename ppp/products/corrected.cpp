@@ -23,6 +23,7 @@ void CorrectedEphemeris::add(const SsrUpdate& u) {
   if (u.high_rate_clock) c.high_rate = part(*u.high_rate_clock);
   if (u.sigma) c.sigma = *u.sigma;
   if (u.has_biases) c.biases = u.biases;
+  if (u.has_phase_biases) c.phase_biases = u.phase_biases;
 }
 
 template <class Value>
@@ -92,6 +93,8 @@ std::optional<SatelliteState> CorrectedEphemeris::at(Satellite satellite, GpsTim
   state->clock_drift += (p[1] + 2.0 * p[2] * dt) / speed_of_light;
   state->sigma = c.sigma;
   state->source = 1 + orbit.solution;
+  for (const SsrPhaseBias& bias : c.phase_biases)
+    state->phase_jumps += static_cast<std::uint32_t>(bias.discontinuity);
   return state;
 }
 
@@ -109,6 +112,16 @@ double CorrectedEphemeris::code_bias(Satellite satellite, char band, char attrib
     return 0.0;
   }
   return broadcast_.code_bias(satellite, band, attribute, t);
+}
+
+std::optional<double> CorrectedEphemeris::phase_bias(Satellite satellite, char band, char attribute,
+                                                     GpsTime) const {
+  const auto current_one = current(satellite);
+  if (!current_one) return {};
+  for (const SsrPhaseBias& b : current_one->all->phase_biases) {
+    if (b.integer && b.band == band && b.attribute == attribute) return -b.value;
+  }
+  return {};
 }
 
 double CorrectedEphemeris::error_walk(Satellite satellite) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ppp/products/broadcast.h"
+#include "ppp/products/ssr_electrons.h"
 #include "ppp/readers/corrections/ssr.h"
 
 namespace maploop::ppp {
@@ -41,6 +42,7 @@ class CorrectedEphemeris : public Ephemeris {
 
   void add(const BroadcastMessages& messages) { broadcast_.add(messages); }
   void add(const SsrUpdate& update);
+  void add(SsrIonosphere ionosphere) { electrons_.set(std::move(ionosphere)); }
   // Sets the epoch of the following calls, which decides for all of them which corrections are
   // used.
   void begin(GpsTime t);
@@ -48,6 +50,8 @@ class CorrectedEphemeris : public Ephemeris {
   std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
   std::optional<double> clock(Satellite satellite, GpsTime t) const override;
   double code_bias(Satellite satellite, char band, char attribute, GpsTime t) const override;
+  std::optional<double> phase_bias(Satellite satellite, char band, char attribute,
+                                   GpsTime t) const override;
   double error_walk(Satellite satellite) const override;
   bool centre_of_mass() const override { return false; }
   std::optional<int> glonass_channel(int number) const override {
@@ -56,6 +60,7 @@ class CorrectedEphemeris : public Ephemeris {
   std::string missing(Satellite satellite, GpsTime t) const override;
 
   const BroadcastIonosphere& ionosphere() const { return broadcast_.ionosphere(); }
+  const ElectronContent& electrons() const { return electrons_; }
   bool corrected(Satellite satellite) const { return current(satellite).has_value(); }
   // Returns the age of the newest clock correction of any satellite; nothing if none ever came.
   std::optional<Duration> age() const;
@@ -68,6 +73,7 @@ class CorrectedEphemeris : public Ephemeris {
     std::optional<SsrPart<double>> high_rate;
     double sigma = 0.05;  // m, if no message gives it
     std::vector<SsrBias> biases;
+    std::vector<SsrPhaseBias> phase_biases;
   };
   struct Current {
     const SsrPart<SsrOrbit>* orbit;
@@ -79,6 +85,7 @@ class CorrectedEphemeris : public Ephemeris {
   bool fresh(const std::optional<SsrPart<Value>>& part) const;
 
   BroadcastEphemeris broadcast_;
+  SsrElectrons electrons_;
   GpsTime now_{};
   std::array<bool, system_count> used_{};
   std::vector<Corrections> corrections_{satellite_slots};

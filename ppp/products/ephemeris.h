@@ -2,7 +2,7 @@
 // clocks.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,6 +20,7 @@ struct SatelliteState {
   double clock_drift = 0.0;           // s/s
   double sigma = 0.0;                 // m, of the range, from orbit and clock
   std::uint32_t source = 0;           // ranges change by more than the walk when this changes
+  std::uint32_t phase_jumps = 0;      // the biases of its phases jump when this changes
   GpsTime message{};  // reference time of the broadcast message; ranges jump when it changes
 };
 
@@ -48,6 +49,9 @@ class Ephemeris {
   virtual double error_walk(Satellite satellite) const = 0;
   // Returns whether positions are those of the centre of mass, so that phase centres must be added.
   virtual bool centre_of_mass() const = 0;
+  // Returns the rotation from the satellite's body to the earth-fixed frame, if products contain
+  // it.
+  virtual std::optional<Eigen::Quaterniond> attitude(Satellite, GpsTime) const { return {}; }
   // Returns the frequency channel of a GLONASS satellite (0 to 99), if the messages contain it.
   virtual std::optional<int> glonass_channel(int) const { return {}; }
   // Returns a reason such as "no clocks for E12 after 2020-06-25 01:00:00.000".

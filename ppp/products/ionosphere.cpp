@@ -1,6 +1,7 @@
 #include "ppp/products/ionosphere.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +9,18 @@ namespace maploop::ppp {
 namespace {
 
 constexpr Duration one_day = std::chrono::hours(24);
+
+// Returns a number that differs between different coefficients; never 0.
+std::uint64_t source_of(const IonosphereCoefficients& coefficients) {
+  std::uint64_t source = coefficients.index();
+  std::visit(
+      [&source](const auto& c) {
+        for (const double value : c.values)
+          source = std::rotl(source, 7) ^ std::bit_cast<std::uint64_t>(value);
+      },
+      coefficients);
+  return source | 1U;
+}
 
 Duration distance(const IonosphereMessage& m, GpsTime t) {
   return std::max({Duration::zero(), m.first - t, t - m.last});
@@ -67,19 +80,25 @@ IonosphericDelay ionospheric_delay(const std::optional<NearestIonosphere>& coeff
   constexpr double days_to_change = 30.0;
   const double days = to_seconds(coefficients->age) / to_seconds(one_day);
   const double delay = ionospheric_delay(coefficients->coefficients, site, azimuth, elevation, t);
-  return {delay, share * std::hypot(1.0, days / days_to_change) * delay};  // (3) of METHOD.md
+  return {delay, share * std::hypot(1.0, days / days_to_change) * delay,  // (3) of METHOD.md
+          source_of(coefficients->coefficients)};
+}
+
+IonosphericDelay ionospheric_delay(const VerticalElectrons& electrons, double elevation) {
+  const double factor = delay_of_electrons * ionospheric_slant(elevation);
+  return {factor * electrons.value, factor * electrons.sigma, electrons.source};
 }
 
 std::string ionosphere_lack(std::optional<Duration> age) {
   if (!age) {
     return "no ionospheric coefficients for these days: one frequency is used with a usual level "
-           "of "
-           "the ionosphere; add a navigation file of that day or of a day close to it";
+           "of the ionosphere; add IONEX maps, or a navigation file of that day or of a day close "
+           "to it";
   }
   const auto days = std::lround(to_seconds(*age) / to_seconds(one_day));
   if (days < 2) return {};
   return "the ionospheric coefficients are of a day that is " + std::to_string(days) +
-         " days away; add a navigation file of the same day";
+         " days away; add IONEX maps or a navigation file of the same day";
 }
 
 }  // namespace maploop::ppp

@@ -1,6 +1,8 @@
-// Selects the broadcast ionospheric coefficients that apply to a given moment.
+// Gives the ionosphere's delay from what is known of it: maps and messages of its electrons, or the
+// broadcast coefficients that apply to a given moment.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,10 +37,29 @@ class BroadcastIonosphere {
   std::vector<IonosphereMessage> messages_;
 };
 
+// This is the vertical content above a place and its standard deviation, TECU.
+struct VerticalElectrons {
+  double value = 0.0, sigma = 0.0;
+  std::uint64_t source = 0;  // the value may jump where this changes
+};
+
+// Knows the electrons of a region and a period.
+class ElectronContent {
+ public:
+  virtual ~ElectronContent() = default;
+  // Returns whether they are known at a moment, at least somewhere.
+  virtual bool covers(GpsTime t) const = 0;
+  // Returns nothing where they are unknown.
+  virtual std::optional<VerticalElectrons> at(const PiercePoint& place, GpsTime t) const = 0;
+};
+
 // This is a model's delay towards a satellite and its standard deviation, m on GPS L1.
 struct IonosphericDelay {
   double value = 0.0, sigma = 0.0;
+  std::uint64_t source = 0;  // the value may jump where this changes
 };
+
+IonosphericDelay ionospheric_delay(const VerticalElectrons& electrons, double elevation);
 
 // Without coefficients, returns the delay of a usual level of ionisation. `azimuth` and `elevation`
 // are in rad.

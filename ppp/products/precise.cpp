@@ -34,6 +34,20 @@ double walk_of(const std::vector<ClockFile::Point>& clock) {
   return speed_of_light * sigma_of_median * *middle;
 }
 
+// Attitudes are interpolated across gaps of up to this length.
+constexpr Duration longest_attitude_gap = std::chrono::seconds(910);
+
+// Sorts points by time. Of two with the same time the first is kept.
+void put_in_order(auto& list) {
+  const auto before = [](const auto& a, const auto& b) { return a.time < b.time; };
+  if (!std::is_sorted(list.begin(), list.end(), before)) {
+    std::stable_sort(list.begin(), list.end(), before);
+  }
+  list.erase(std::unique(list.begin(), list.end(),
+                         [](const auto& a, const auto& b) { return a.time == b.time; }),
+             list.end());
+}
+
 // A wide lane is stated for the day around its time.
 constexpr Duration half_a_day = std::chrono::hours(12);
 
@@ -76,17 +90,8 @@ PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
       has_phase_biases_ = true;
     }
   }
-  const auto in_order = [](auto& list) {
-    const auto before = [](const auto& a, const auto& b) { return a.time < b.time; };
-    if (!std::is_sorted(list.begin(), list.end(), before)) {
-      std::stable_sort(list.begin(), list.end(), before);
-    }
-    list.erase(std::unique(list.begin(), list.end(),
-                           [](const auto& a, const auto& b) { return a.time == b.time; }),
-               list.end());
-  };
-  for (auto& list : orbits_) in_order(list);
-  for (auto& list : clocks_) in_order(list);
+  for (auto& list : orbits_) put_in_order(list);
+  for (auto& list : clocks_) put_in_order(list);
   std::transform(clocks_.begin(), clocks_.end(), clock_walk_.begin(), walk_of);
   for (const BiasFile& file : biases) {
     for (const SignalBias& bias : file.biases) {
@@ -94,6 +99,39 @@ PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
       has_phase_biases_ |= bias.signal[0] == 'L';
     }
   }
+}
+
+std::size_t PreciseEphemeris::use_attitudes(const std::vector<AttitudeFile>& files) {
+  const double least_cosine = std::cos(0.1);  // of the angle between the antenna's axis and nadir
+  std::size_t wrong = 0;
+  for (const AttitudeFile& file : files) {
+    for (const auto& [satellite, points] : file.points) {
+      for (const AttitudeFile::Point& point : points) {
+        const auto place = position(satellite, point.time, nullptr);
+        if (!place) continue;
+        const Eigen::Vector3d axis = point.R_ecef_body * Eigen::Vector3d::UnitZ();
+        if (axis.dot(-place->normalized()) >= least_cosine) {
+          attitudes_[satellite.slot()].push_back(point);
+        } else {
+          ++wrong;
+        }
+      }
+    }
+  }
+  for (auto& list : attitudes_) put_in_order(list);
+  return wrong;
+}
+
+std::optional<Eigen::Quaterniond> PreciseEphemeris::attitude(Satellite satellite, GpsTime t) const {
+  const auto& points = attitudes_[satellite.slot()];
+  const auto next = std::ranges::lower_bound(points, t, {}, &AttitudeFile::Point::time);
+  if (next == points.end()) return {};
+  if (next->time == t) return next->R_ecef_body;
+  if (next == points.begin()) return {};
+  const auto last = std::prev(next);
+  if (next->time - last->time > longest_attitude_gap) return {};
+  const double share = to_seconds(t - last->time) / to_seconds(next->time - last->time);
+  return last->R_ecef_body.slerp(share, next->R_ecef_body);
 }
 
 std::optional<Eigen::Vector3d> PreciseEphemeris::position(Satellite satellite, GpsTime t,

@@ -1,5 +1,5 @@
-// Interpolates precise orbits (SP3) and clocks (RINEX clock, or SP3's own) and provides code
-// biases.
+// Interpolates precise orbits (SP3), clocks (RINEX clock, or SP3's own) and attitudes (ORBEX), and
+// provides biases of codes and phases.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include "ppp/products/ephemeris.h"
 #include "ppp/readers/files/bias.h"
 #include "ppp/readers/files/clock.h"
+#include "ppp/readers/files/orbex.h"
 #include "ppp/readers/files/sp3.h"
 
 namespace maploop::ppp {
@@ -21,6 +22,9 @@ class PreciseEphemeris : public Ephemeris {
   // The messages' group delays are used where the files do not tell how the codes of two bands
   // differ. They must outlive this object.
   void use_group_delays(const Ephemeris* messages) { messages_ = messages; }
+  // Adds the attitudes of files. Returns how many were left out because the antenna's axis does not
+  // point to the earth: they are of another orbit, or the inverse rotation.
+  std::size_t use_attitudes(const std::vector<AttitudeFile>& files);
 
   std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
   std::optional<double> clock(Satellite satellite, GpsTime t) const override;
@@ -32,6 +36,7 @@ class PreciseEphemeris : public Ephemeris {
   // are at most a minute apart.
   double error_walk(Satellite satellite) const override;
   std::optional<double> ionosphere_bias(Satellite satellite, GpsTime t) const override;
+  std::optional<Eigen::Quaterniond> attitude(Satellite satellite, GpsTime t) const override;
   bool has_phase_biases() const { return has_phase_biases_; }
   bool centre_of_mass() const override { return true; }
   std::string missing(Satellite satellite, GpsTime t) const override;
@@ -48,6 +53,7 @@ class PreciseEphemeris : public Ephemeris {
   std::array<std::vector<ClockFile::Point>, satellite_slots> clocks_;
   std::array<std::vector<SignalBias>, satellite_slots> biases_;
   std::array<std::vector<ClockFile::WideLane>, satellite_slots> wide_lanes_;
+  std::array<std::vector<AttitudeFile::Point>, satellite_slots> attitudes_;
   bool has_phase_biases_ = false;
   const Ephemeris* messages_ = nullptr;
   Duration orbit_interval_{0};

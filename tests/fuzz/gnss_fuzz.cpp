@@ -1,9 +1,10 @@
-// RINEX, CRINEX, SP3, clocks, ANTEX, Bias-SINEX, DCB, earth rotation, ocean loading: what the begin
-// of the text says.
+// RINEX, CRINEX, SP3, clocks, ANTEX, Bias-SINEX, DCB, earth rotation, ocean loading, IONEX, ORBEX:
+// what the begin of the text says.
 #include <cmath>
 
 #include "ppp/gnss_files.h"
 #include "ppp/models/antenna.h"
+#include "ppp/products/ionosphere_maps.h"
 #include "tests/fuzz/fuzz_input.h"
 
 using namespace maploop;
@@ -29,5 +30,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       for (const PhaseCentre& carrier : antenna.carriers)
         for (const double angle : {-3.2, 0.0, 0.7, 3.2, 7.0})
           (void)phase_variation(antenna, carrier, std::abs(angle), angle);
+  const IonosphereMaps maps(files.ionosphere_maps);
+  for (const IonosphereMapFile& file : files.ionosphere_maps) {
+    for (const IonosphereMap& map : file.maps) {
+      for (const double longitude : {-7.0, 0.1, 3.1}) (void)maps.at({0.7, longitude}, map.time);
+    }
+  }
   return 0;
 }

@@ -163,6 +163,23 @@ TEST(GnssInfoCommand, TellsFilesApartAndNamesBadOnes) {
   EXPECT_NE(result.out.find("epochs        360, every 1.000 s, 0 gaps"), std::string::npos);
   EXPECT_NE(result.out.find("broadcast navigation"), std::string::npos);
   EXPECT_NE(result.error.find("rtk_reference.pos.gz: not in a known format"), std::string::npos);
+  EXPECT_NE(result.out.find("reach         two frequencies, broadcast orbits"), std::string::npos);
+}
+
+TEST(GnssInfoCommand, SaysWhatTheFilesReachTogether) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  std::vector<std::string> command = ppp_of_the_car();
+  command.resize(command.size() - 2);
+  command[1] = "gnss";
+  command.insert(command.begin() + 2, "info");
+  const auto with_biases = run(command);
+  EXPECT_EQ(with_biases.status, 0) << with_biases.error;
+  EXPECT_NE(with_biases.out.find("reach         two frequencies, integers"), std::string::npos)
+      << with_biases.out;
+  command.pop_back();
+  const auto without = run(command);
+  EXPECT_NE(without.out.find("reach         two frequencies, real-valued"), std::string::npos);
+  EXPECT_NE(without.out.find("lack          no biases of phases"), std::string::npos);
 }
 
 }  // namespace

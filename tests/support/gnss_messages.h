@@ -160,21 +160,25 @@ inline std::string ssr_orbits_and_clocks(SsrForm form, ppp::System system, ppp::
   return rtcm_frame(w);
 }
 
-// ssr_biases() returns code biases of GPS (1059) or Galileo (1242), with the signal numbers of the
-// standard.
+// This is the bias of a signal, by the numbers of the standard.
 struct NumberedBias {
   std::uint8_t satellite;
   int signal;
   double value;  // m
 };
-inline std::string ssr_biases(ppp::System system, ppp::GpsTime epoch,
-                              const std::vector<NumberedBias>& biases) {
-  BitWriter w;
-  w.put(system == ppp::System::galileo ? 1242 : 1059, 12);
+
+// Puts the beginning of a message behind its number: every 5 s, the first issue of one solution.
+inline void put_ssr_header(BitWriter& w, ppp::GpsTime epoch) {
   w.put(static_cast<std::uint64_t>(std::lround(ppp::seconds_of_week(epoch))), 20)
       .put(2, 4)
       .put(0, 1);
   w.put(3, 4).put(258, 16).put(1, 4);
+}
+
+// Puts the biases of each satellite, which come together. `between` writes what is between their
+// number and the first, `each` what is behind a signal's number.
+template <class Between, class Each>
+void put_biases(BitWriter& w, const std::vector<NumberedBias>& biases, Between between, Each each) {
   std::vector<std::uint8_t> satellites;
   for (const NumberedBias& b : biases) {
     if (satellites.empty() || satellites.back() != b.satellite) satellites.push_back(b.satellite);
@@ -184,9 +188,55 @@ inline std::string ssr_biases(ppp::System system, ppp::GpsTime epoch,
     const auto of = [&](const NumberedBias& b) { return b.satellite == satellite; };
     w.put(satellite, 6);
     w.put(static_cast<std::uint64_t>(std::count_if(biases.begin(), biases.end(), of)), 5);
+    between();
     for (const NumberedBias& b : biases) {
-      if (of(b)) w.put(static_cast<std::uint64_t>(b.signal), 5).put(b.value, 0.01, 14);
+      if (of(b)) each(w.put(static_cast<std::uint64_t>(b.signal), 5), b.value);
     }
+  }
+}
+
+// Returns code biases of GPS (1059) or Galileo (1242).
+inline std::string ssr_biases(ppp::System system, ppp::GpsTime epoch,
+                              const std::vector<NumberedBias>& biases) {
+  BitWriter w;
+  w.put(system == ppp::System::galileo ? 1242 : 1059, 12);
+  put_ssr_header(w, epoch);
+  put_biases(
+      w, biases, [] {}, [](BitWriter& to, double value) { to.put(value, 0.01, 14); });
+  return rtcm_frame(w);
+}
+
+// Returns phase biases of GPS or Galileo with which ambiguities are integers. All have jumped
+// `jumps` times.
+inline std::string ssr_phase_biases(SsrForm form, ppp::System system, ppp::GpsTime epoch,
+                                    const std::vector<NumberedBias>& biases,
+                                    std::uint64_t jumps = 0) {
+  const bool galileo = system == ppp::System::galileo, igs = form == SsrForm::igs;
+  BitWriter w;
+  w.put(igs ? 4076 : galileo ? 1267 : 1265, 12);
+  if (igs) w.put(1, 3).put(galileo ? 66 : 26, 8);
+  put_ssr_header(w, epoch);
+  w.put(3, 2);  // consistent with the dispersive part and with wide lanes
+  put_biases(
+      w, biases, [&] { w.put(0, 9 + 8); },
+      [&](BitWriter& to, double value) {
+        to.put(1, 1).put(2, 2).put(jumps, 4).put(value, 1e-4, 20);
+      });
+  return rtcm_frame(w);
+}
+
+// Returns the electrons of one layer at 450 km, with a standard deviation of 2 TECU.
+inline std::string ssr_ionosphere(SsrForm form, ppp::GpsTime epoch, const ppp::SsrLayer& layer) {
+  const bool igs = form == SsrForm::igs;
+  BitWriter w;
+  w.put(igs ? 4076 : 1264, 12);
+  if (igs) w.put(1, 3).put(201, 8);
+  put_ssr_header(w, epoch);
+  w.put(2.0, 0.05, 9).put(0, 2).put(45, 8);
+  w.put(static_cast<std::uint64_t>(layer.degree - 1), 4);
+  w.put(static_cast<std::uint64_t>(layer.order - 1), 4);
+  for (const auto* values : {&layer.cosines, &layer.sines}) {
+    for (const double value : *values) w.put(value, 0.005, 16);
   }
   return rtcm_frame(w);
 }

@@ -1,6 +1,8 @@
 #include "tools/gnss/info.h"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
@@ -190,10 +192,32 @@ std::string describe(const OceanLoadingFile& o) {
   return row("stations", std::to_string(o.stations.size()));
 }
 
+std::string describe(const IonosphereMapFile& i) {
+  const auto axis = [](const IonosphereMapFile::Axis& a) {
+    return number(a.first, 1) + " to " + number(a.first + a.step * (a.count - 1), 1) + ", every " +
+           number(std::abs(a.step), 1) + " degrees";
+  };
+  const bool sigmas =
+      std::ranges::any_of(i.maps, [](const IonosphereMap& map) { return !map.sigma.empty(); });
+  return row("maps", std::to_string(i.maps.size()) + (sigmas ? ", with standard deviations"
+                                                             : ", without standard deviations")) +
+         row("time", span(i.maps.front().time, i.maps.back().time)) +
+         row("latitudes", axis(i.latitude)) + row("longitudes", axis(i.longitude));
+}
+
+std::string describe(const AttitudeFile& a) {
+  GpsTime first = GpsTime::max(), last = GpsTime::min();
+  for (const auto& [satellite, points] : a.points) {
+    first = std::min(first, points.front().time);
+    last = std::max(last, points.back().time);
+  }
+  return row("time", span(first, last)) + row("satellites", per_system(keys(a.points))) +
+         refusals(a.refused, std::vector<std::string>{});
+}
+
 }  // namespace
 
-std::string info(const std::filesystem::path& path) {
-  GnssFiles files;
+std::string info(const std::filesystem::path& path, GnssFiles& files) {
   const FileKind kind = read_into(path, files);
   std::string text = path.string() + ": " + name(kind) + '\n';
   const auto add = [&](const auto& list) {
@@ -207,6 +231,8 @@ std::string info(const std::filesystem::path& path) {
   add(files.biases);
   add(files.earth_rotation);
   add(files.ocean_loading);
+  add(files.ionosphere_maps);
+  add(files.attitudes);
   return text;
 }
 

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <string>
 
+#include "ppp/gnss_files.h"
+
 namespace maploop::gnss {
 
-// Throws ppp::ReadError.
-std::string info(const std::filesystem::path& path);
+// Reads a file into `files`, which must be empty. Throws ppp::ReadError.
+std::string info(const std::filesystem::path& path, ppp::GnssFiles& files);
 
 }  // namespace maploop::gnss

@@ -23,7 +23,7 @@ void CorrectionStream::take(const Rtcm3Message& message) {
     navigation_.limit(most);
     return;
   }
-  switch (decode_ssr(message, now_, updates_)) {
+  switch (decode_ssr(message, now_, updates_, ionosphere_)) {
     case SsrResult::none:
       break;
     case SsrResult::decoded:

@@ -1,8 +1,9 @@
-// Decodes a stream of RTCM 3 corrections as it arrives: ephemerides, and SSR of orbits, clocks and
-// biases.
+// Decodes a stream of RTCM 3 corrections as it arrives: ephemerides, and SSR of orbits, clocks,
+// biases and the ionosphere.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ struct CorrectionStreamCounts {
   std::uint64_t messages = 0;     // with a right checksum, of any type
   std::uint64_t ephemerides = 0;  // decoded
   std::uint64_t corrections = 0;  // messages that were decoded
-  std::uint64_t unsupported = 0;  // SSR of phase biases, ionosphere, other systems
+  std::uint64_t unsupported = 0;  // SSR of other systems
   std::uint64_t damaged = 0;      // frames that are cut or have a wrong checksum
   std::uint64_t unusable = 0;     // messages with invalid content
 };
@@ -38,6 +39,7 @@ class CorrectionStream {
   // These hold what was decoded since the caller last emptied them.
   NavigationFile& navigation() { return navigation_; }
   std::vector<SsrUpdate>& updates() { return updates_; }
+  std::optional<SsrIonosphere>& ionosphere() { return ionosphere_; }
   const CorrectionStreamCounts& counts() const { return counts_; }
 
  private:
@@ -47,6 +49,7 @@ class CorrectionStream {
   std::string bytes_;
   NavigationFile navigation_;
   std::vector<SsrUpdate> updates_;
+  std::optional<SsrIonosphere> ionosphere_;
   CorrectionStreamCounts counts_;
 };
 

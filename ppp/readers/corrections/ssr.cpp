@@ -1,5 +1,6 @@
 // The sources are RTCM 10403.3, sections 3.5.12 and 3.5.13 (messages 1057 to 1068), drafts of the
-// same for Galileo and QZSS, and the IGS State Space Representation format 1.00.
+// same for Galileo, QZSS, phase biases and the ionosphere, and the IGS State Space Representation
+// format 1.00.
 #include "ppp/readers/corrections/ssr.h"
 
 #include <cmath>
@@ -10,7 +11,7 @@
 namespace maploop::ppp {
 namespace {
 
-enum class Content { orbit, clock, both, bias, ura, high_rate_clock };
+enum class Content { orbit, clock, both, bias, phase_bias, ura, high_rate_clock };
 
 struct SsrKind {
   System system;
@@ -21,9 +22,10 @@ struct SsrKind {
 // The orders are those of RTCM's message numbers and of the IGS's subtypes, for `place` from 1.
 constexpr std::array rtcm_order{Content::orbit, Content::clock, Content::bias,
                                 Content::both,  Content::ura,   Content::high_rate_clock};
-constexpr std::array igs_order{Content::orbit, Content::clock, Content::both,
-                               Content::high_rate_clock, Content::bias};
-constexpr int igs_ura = 7;  // 6 is phase bias
+constexpr std::array igs_order{
+    Content::orbit, Content::clock,      Content::both, Content::high_rate_clock,
+    Content::bias,  Content::phase_bias, Content::ura};
+constexpr int rtcm_ionosphere = 1264, igs_ionosphere = 201;
 
 std::optional<SsrKind> ssr_kind(int number, int subtype) {
   if (number == 4076) {
@@ -31,7 +33,6 @@ std::optional<SsrKind> ssr_kind(int number, int subtype) {
     const int group = subtype / 20 - 1, place = subtype % 20;
     if (group < 0 || group >= static_cast<int>(igs_systems.size())) return {};
     const System system = igs_systems[static_cast<std::size_t>(group)];
-    if (place == igs_ura) return SsrKind{system, Content::ura, true};
     if (place < 1 || place > static_cast<int>(igs_order.size())) return {};
     return SsrKind{system, igs_order[static_cast<std::size_t>(place - 1)], true};
   }
@@ -45,6 +46,10 @@ std::optional<SsrKind> ssr_kind(int number, int subtype) {
     if (place < 0 || place >= static_cast<int>(rtcm_order.size())) continue;
     return SsrKind{f.system, rtcm_order[static_cast<std::size_t>(place)], false};
   }
+  constexpr std::array phase_systems{System::gps, System::glonass, System::galileo, System::qzss};
+  const int place = number - 1265;
+  if (place >= 0 && place < static_cast<int>(phase_systems.size()))
+    return SsrKind{phase_systems[static_cast<std::size_t>(place)], Content::phase_bias, false};
   return {};
 }
 
@@ -123,9 +128,85 @@ void read_biases(Rtcm3Bits& bits, SsrUpdate& update) {
   }
 }
 
+void read_phase_biases(Rtcm3Bits& bits, SsrUpdate& update) {
+  update.has_phase_biases = true;
+  const auto count = bits.number(5);
+  bits.skip(9 + 8);  // the yaw and its rate
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto name = ssr_signal(update.satellite.system, bits.number(5));
+    SsrPhaseBias bias;
+    bias.integer = bits.number(1) != 0;
+    bits.skip(2);  // whether the wide lane of several is an integer
+    bias.discontinuity = static_cast<int>(bits.number(4));
+    bias.value = scaled(bits, 20, 1e-4);
+    if (name.empty()) continue;
+    bias.band = name[0];
+    bias.attribute = name[1];
+    update.phase_biases.push_back(bias);
+  }
+}
+
+// These fields are at the beginning of each message, behind its number.
+struct SsrHeader {
+  GpsTime time{};
+  Duration interval{};
+  int issue = 0;
+  std::uint32_t solution = 0;
+};
+
+// GLONASS's messages of RTCM count seconds of the day in Moscow. `datum` states whether there is a
+// flag for a regional reference frame.
+SsrHeader read_header(Rtcm3Bits& bits, GpsTime now, bool moscow, bool datum) {
+  constexpr Duration day = std::chrono::hours(24);
+  const Duration since = std::chrono::seconds(bits.number(moscow ? 17 : 20));
+  SsrHeader header;
+  header.interval = update_interval(bits.number(4));
+  bits.skip(1);  // the flag for more messages of this time
+  if (datum) bits.skip(1);
+  header.issue = static_cast<int>(bits.number(4));
+  header.solution = static_cast<std::uint32_t>(bits.number(20));
+  header.time = moscow
+                    ? nearest_moment(
+                          now, since - std::chrono::hours(3) + leap_seconds(now).gps_minus_utc, day)
+                    : nearest_moment(now, since, 7 * day);
+  // The corrections refer to the middle of the interval, except for the shortest one.
+  if (header.interval > std::chrono::seconds(1)) header.time += header.interval / 2;
+  return header;
+}
+
+SsrResult decode_ionosphere(Rtcm3Bits& bits, GpsTime now, std::optional<SsrIonosphere>& to) {
+  constexpr double coefficient_unit = 0.005, quality_unit = 0.05;  // TECU
+  const SsrHeader header = read_header(bits, now, false, false);
+  SsrIonosphere all;
+  all.time = header.time;
+  all.interval = header.interval;
+  all.sigma = quality_unit * static_cast<double>(bits.number(9));
+  const auto layers = bits.number(2) + 1;
+  for (std::uint64_t i = 0; i < layers && bits.good(); ++i) {
+    bits.skip(8);  // the height: each layer counts as the shell of the other models
+    SsrLayer layer;
+    layer.degree = static_cast<int>(bits.number(4)) + 1;
+    layer.order = static_cast<int>(bits.number(4)) + 1;
+    if (layer.order > layer.degree) return SsrResult::incomplete;
+    for (int m = 0; m <= layer.order; ++m) {
+      for (int n = m; n <= layer.degree; ++n)
+        layer.cosines.push_back(scaled(bits, 16, coefficient_unit));
+    }
+    for (int m = 1; m <= layer.order; ++m) {
+      for (int n = m; n <= layer.degree; ++n)
+        layer.sines.push_back(scaled(bits, 16, coefficient_unit));
+    }
+    all.layers.push_back(std::move(layer));
+  }
+  if (!bits.good()) return SsrResult::incomplete;
+  to = std::move(all);
+  return SsrResult::decoded;
+}
+
 }  // namespace
 
-SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUpdate>& to) {
+SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUpdate>& to,
+                     std::optional<SsrIonosphere>& ionosphere) {
   if (!is_ssr(message.number)) return SsrResult::none;
   Rtcm3Bits bits(message.payload);
   bits.skip(12);
@@ -134,27 +215,22 @@ SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUp
     bits.skip(3);  // version
     subtype = static_cast<int>(bits.number(8));
   }
+  if (message.number == rtcm_ionosphere || subtype == igs_ionosphere)
+    return decode_ionosphere(bits, now, ionosphere);
   const auto kind = ssr_kind(message.number, subtype);
   if (!kind) return SsrResult::unsupported;
   const bool moscow = kind->system == System::glonass && !kind->igs;
   const bool qzss = kind->system == System::qzss;
-  const Duration since = std::chrono::seconds(bits.number(moscow ? 17 : 20));
   const bool orbits = kind->content == Content::orbit || kind->content == Content::both;
+  const SsrHeader header = read_header(bits, now, moscow, orbits && !kind->igs);
   SsrUpdate common;
-  common.interval = update_interval(bits.number(4));
-  bits.skip(1);                            // the flag for more messages of this time
-  if (orbits && !kind->igs) bits.skip(1);  // reference frame: global or regional
-  common.issue = static_cast<int>(bits.number(4));
-  common.solution = static_cast<std::uint32_t>(bits.number(20));
+  common.time = header.time;
+  common.interval = header.interval;
+  common.issue = header.issue;
+  common.solution = header.solution;
   if (orbits && kind->igs) bits.skip(1);
+  if (kind->content == Content::phase_bias) bits.skip(2);  // what the biases are consistent with
   const auto count = bits.number(qzss && !kind->igs ? 4 : 6);
-  constexpr Duration day = std::chrono::hours(24);
-  common.time = moscow
-                    ? nearest_moment(
-                          now, since - std::chrono::hours(3) + leap_seconds(now).gps_minus_utc, day)
-                    : nearest_moment(now, since, 7 * day);
-  // The corrections refer to the middle of the interval, except for the shortest one.
-  if (common.interval > std::chrono::seconds(1)) common.time += common.interval / 2;
 
   const std::size_t number_bits = kind->igs ? 6 : moscow ? 5 : qzss ? 4 : 6;
   const std::size_t issue_bits = !kind->igs && kind->system == System::galileo ? 10 : 8;
@@ -166,6 +242,7 @@ SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUp
     if (kind->content == Content::clock || kind->content == Content::both)
       u.clock = read_clock(bits);
     if (kind->content == Content::bias) read_biases(bits, u);
+    if (kind->content == Content::phase_bias) read_phase_biases(bits, u);
     if (kind->content == Content::ura) u.sigma = read_sigma(bits);
     if (kind->content == Content::high_rate_clock) u.high_rate_clock = scaled(bits, 22, 1e-4);
     if (u.satellite.number > 0) to.push_back(std::move(u));

@@ -1,5 +1,6 @@
 // Decodes corrections of broadcast orbits and clocks: SSR of RTCM 3 (GPS 1057 to 1062, GLONASS 1063
-// to 1068, Galileo 1240 to 1245, QZSS 1246 to 1251) and of the IGS (4076).
+// to 1068, Galileo 1240 to 1245, QZSS 1246 to 1251; phase biases 1265 to 1268; ionosphere 1264) and
+// of the IGS (4076).
 #pragma once
 
 #include <Eigen/Core>
@@ -33,6 +34,14 @@ struct SsrBias {
   double value = 0.0;
 };
 
+// The bias must be added to the phase of this signal; m.
+struct SsrPhaseBias {
+  char band = 0, attribute = 0;
+  double value = 0.0;
+  bool integer = false;   // the ambiguity of the corrected phase is an integer
+  int discontinuity = 0;  // counts the jumps of the bias: the ambiguity restarts when it changes
+};
+
 // An SsrUpdate is the content of one message for one satellite.
 struct SsrUpdate {
   Satellite satellite;
@@ -46,14 +55,32 @@ struct SsrUpdate {
   std::optional<double> sigma;            // m, of the range (URA)
   bool has_biases = false;
   std::vector<SsrBias> biases;
+  bool has_phase_biases = false;
+  std::vector<SsrPhaseBias> phase_biases;
+};
+
+// A layer of electrons is expanded in spherical harmonics of a longitude that turns with the sun.
+// The coefficients (TECU) come by order m from 0 (sines from 1), then by degree n from m.
+struct SsrLayer {
+  int degree = 1, order = 1;
+  std::vector<double> cosines, sines;
+};
+
+// This is the content of a message of the ionosphere.
+struct SsrIonosphere {
+  GpsTime time{};       // time to which it refers
+  Duration interval{};  // time until the next one
+  double sigma = 0.0;   // TECU, of the vertical content; 0: unknown
+  std::vector<SsrLayer> layers;
 };
 
 enum class SsrResult : std::uint8_t { none, decoded, incomplete, unsupported };
 
-// Adds the content of a message to `to`. `now` is a moment that differs from the reception by less
-// than half a day. The result is `none` if it is not an SSR message, `incomplete` if its content is
-// incomplete (nothing is added then), and `unsupported` for phase biases, ionosphere and other
+// Adds the content of a message to `to`, or replaces `ionosphere`. `now` is a moment that differs
+// from the reception by less than half a day. The result is `none` if it is not an SSR message,
+// `incomplete` if its content is incomplete (nothing is added then), and `unsupported` for other
 // systems.
-SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUpdate>& to);
+SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUpdate>& to,
+                     std::optional<SsrIonosphere>& ionosphere);
 
 }  // namespace maploop::ppp

@@ -18,11 +18,13 @@ FileKind file_kind(std::string_view text) {
     if (type == "C" || columns(first, 21, 1) == "C") return FileKind::clock;
     return FileKind::unknown;
   }
+  if (label.starts_with("IONEX VERSION")) return FileKind::ionosphere_maps;
   if (label.starts_with("ANTEX VERSION / SYST")) return FileKind::antenna;
   if (first.size() > 30 && first[0] == '#' && first[1] >= 'a' && first[1] <= 'd') {
     return FileKind::orbit;
   }
   if (start.starts_with("%=BIA")) return FileKind::bias;
+  if (start.starts_with("%=ORBEX")) return FileKind::attitude;
   if (start.starts_with("VERSION 2") || start.starts_with("version 2")) {
     return FileKind::earth_rotation;
   }
@@ -57,6 +59,10 @@ const char* name(FileKind kind) {
       return "earth rotation";
     case FileKind::ocean_loading:
       return "ocean loading";
+    case FileKind::ionosphere_maps:
+      return "maps of the ionosphere";
+    case FileKind::attitude:
+      return "attitudes of satellites";
     case FileKind::ubx:
       return "u-blox raw measurements";
     case FileKind::rtcm3:

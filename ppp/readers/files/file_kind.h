@@ -16,6 +16,8 @@ enum class FileKind {
   dcb,
   earth_rotation,
   ocean_loading,
+  ionosphere_maps,
+  attitude,
   ubx,
   rtcm3,
   unknown

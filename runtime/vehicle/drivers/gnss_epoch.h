@@ -20,6 +20,7 @@ struct GnssEpoch : Sample {
 struct GnssCorrections : Sample {
   ppp::BroadcastMessages heard;
   std::vector<ppp::SsrUpdate> updates;
+  std::optional<ppp::SsrIonosphere> ionosphere;
 };
 
 }  // namespace maploop::vehicle

@@ -171,6 +171,7 @@ class LiveCorrections final : public sensors::StreamSource<GnssCorrections> {
     sample.heard.take(stream_.navigation());
     std::swap(sample.updates, stream_.updates());
     stream_.updates().clear();
+    sample.ionosphere = std::exchange(stream_.ionosphere(), std::nullopt);
     for (const ppp::SsrUpdate& u : sample.updates)
       if (u.clock) corrected_.insert(u.satellite);
     return true;

@@ -114,6 +114,7 @@ void PppStage::take_corrections() {
     if (received_) {
       received_->add(c->heard);
       for (const ppp::SsrUpdate& u : c->updates) received_->add(u);
+      if (c->ionosphere) received_->add(*c->ionosphere);
     }
     corrections_->pop();
   }
@@ -150,9 +151,7 @@ std::string PppStage::wrong_with_corrections() const {
 
 void PppStage::look_at_ionosphere(ppp::GpsTime t) {
   if (!setup_->one_frequency()) return;
-  const auto age = received_             ? received_->ionosphere().age(t)
-                   : setup_->broadcast() ? setup_->broadcast()->ionosphere().age(t)
-                                         : std::nullopt;
+  const auto age = setup_->age_of_ionosphere(t, received_ ? &*received_ : nullptr);
   counts_.age_of_ionosphere.store(age.value_or(Duration::max()), relaxed);
 }
 

@@ -58,7 +58,26 @@ class Caster {
         bytes += maploop::testing::ssr_orbits_and_clocks(
             form, system, epoch, {updates.begin() + static_cast<long>(i), end});
       }
-      bytes += maploop::testing::ssr_biases(system, epoch, biases(system, epoch));
+      bytes += maploop::testing::ssr_biases(
+          system, epoch, biases(system, [&](Satellite satellite, char band, char attribute) {
+            return precise_.code_bias(satellite, band, attribute, epoch);
+          }));
+    }
+    return bytes;
+  }
+
+  // Returns the biases of phases, which have jumped `jumps` times.
+  std::string phase_biases(maploop::testing::SsrForm form, GpsTime epoch,
+                           std::uint64_t jumps = 0) const {
+    std::string bytes;
+    for (const System system : {System::gps, System::galileo}) {
+      bytes += maploop::testing::ssr_phase_biases(
+          form, system, epoch,
+          biases(system,
+                 [&](Satellite satellite, char band, char attribute) {
+                   return precise_.phase_bias(satellite, band, attribute, epoch).value_or(0.0);
+                 }),
+          jumps);
     }
     return bytes;
   }
@@ -117,7 +136,9 @@ class Caster {
     return {};
   }
 
-  std::vector<maploop::testing::NumberedBias> biases(System system, GpsTime t) const {
+  // Returns the biases that are not 0, as messages send them.
+  template <class BiasOf>
+  static std::vector<maploop::testing::NumberedBias> biases(System system, BiasOf bias_of) {
     struct Code {
       int signal;
       char band, attribute;
@@ -129,7 +150,7 @@ class Caster {
     std::vector<maploop::testing::NumberedBias> all;
     for (std::uint8_t n = 1; n <= 36; ++n) {
       for (const Code& c : codes) {
-        const double bias = precise_.code_bias({system, n}, c.band, c.attribute, t);
+        const double bias = bias_of(Satellite{system, n}, c.band, c.attribute);
         if (bias != 0.0) all.push_back({n, c.signal, -bias});
       }
     }

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "msgs/frames.h"
 #include "ppp/gnss_files.h"
 #include "ppp/ppp_setup.h"
 #include "ppp/readers/corrections/correction_stream.h"
@@ -29,6 +31,7 @@ void feed(CorrectedEphemeris& ephemeris, CorrectionStream& stream, const std::st
   EXPECT_TRUE(stream.push(as_bytes(bytes)));
   for (const SsrUpdate& u : stream.updates()) ephemeris.add(u);
   stream.updates().clear();
+  if (stream.ionosphere()) ephemeris.add(*std::exchange(stream.ionosphere(), std::nullopt));
 }
 
 // Only Galileo is used. The clocks of the products are 5 minutes apart, and between them GPS's are
@@ -161,17 +164,98 @@ TEST(Ssr, RefusesWhatIsCutAndPassesOverWhatIsNotUsed) {
   Rtcm3Message message;
   ASSERT_TRUE(Rtcm3Frames(sound).next(message));
   std::vector<SsrUpdate> updates;
-  EXPECT_EQ(decode_ssr(message, epoch, updates), SsrResult::decoded);
+  std::optional<SsrIonosphere> ionosphere;
+  EXPECT_EQ(decode_ssr(message, epoch, updates, ionosphere), SsrResult::decoded);
   const std::size_t count = updates.size();
   EXPECT_GT(count, 5u);
   for (std::size_t size = 2; size + 2 < message.payload.size(); size += 7) {
     const Rtcm3Message cut{message.number, message.payload.substr(0, size), 0};
-    EXPECT_NE(decode_ssr(cut, epoch, updates), SsrResult::decoded);
+    EXPECT_NE(decode_ssr(cut, epoch, updates, ionosphere), SsrResult::decoded);
     EXPECT_EQ(updates.size(), count);
   }
-  const std::string phase_biases(30, '\0');
-  EXPECT_EQ(decode_ssr({1265, phase_biases, 0}, epoch, updates), SsrResult::unsupported);
-  EXPECT_EQ(decode_ssr({1019, phase_biases, 0}, epoch, updates), SsrResult::none);
+  const std::string zeros(30, '\0');
+  EXPECT_EQ(decode_ssr({1258, zeros, 0}, epoch, updates, ionosphere), SsrResult::unsupported);
+  EXPECT_EQ(decode_ssr({1019, zeros, 0}, epoch, updates, ionosphere), SsrResult::none);
+}
+
+TEST(Ssr, PhaseBiasesAreThoseOfTheProductsAndMakeIntegers) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const GpsTime epoch = kamakura().observations[0].epochs.front().time;
+  for (const SsrForm form : {SsrForm::rtcm, SsrForm::igs}) {
+    CorrectedEphemeris ephemeris{BroadcastEphemeris(kamakura().navigation)};
+    CorrectionStream stream(epoch);
+    feed(ephemeris, stream, caster().messages(form, epoch) + caster().phase_biases(form, epoch, 2));
+    const GpsTime t = epoch + seconds(4);
+    ephemeris.begin(t);
+    int compared = 0;
+    for (std::uint8_t n = 1; n <= 36; ++n) {
+      const Satellite satellite{System::galileo, n};
+      const auto expected = caster().precise().phase_bias(satellite, '5', 'Q', t);
+      if (!expected || *expected == 0.0 || !ephemeris.corrected(satellite)) continue;
+      const auto found = ephemeris.phase_bias(satellite, '5', 'Q', t);
+      ASSERT_TRUE(found) << to_string(satellite);
+      EXPECT_NEAR(*found, *expected, 1e-4);
+      EXPECT_FALSE(ephemeris.phase_bias(satellite, '7', 'Q', t));
+      EXPECT_EQ(ephemeris.at(satellite, t)->phase_jumps, 4U) << "two signals, twice each";
+      ++compared;
+    }
+    EXPECT_GT(compared, 5);
+    EXPECT_EQ(stream.counts().unsupported, 0U);
+  }
+}
+
+TEST(Ssr, AmbiguitiesRestartWhenPhaseBiasesJump) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const PppSetup setup(kamakura(), options());
+  CorrectedEphemeris ephemeris{BroadcastEphemeris(kamakura().navigation)};
+  PppFilter filter = setup.make_filter(&ephemeris);
+  const auto& epochs = setup.observations().epochs;
+  CorrectionStream stream(epochs.front().time);
+  std::vector<int> candidates;
+  std::vector<double> variance;
+  for (std::size_t i = 0; i < 260; ++i) {
+    if (i % 5 == 0) {
+      const GpsTime sent = epochs[i].time;
+      feed(ephemeris, stream,
+           caster().messages(SsrForm::igs, sent) +
+               caster().phase_biases(SsrForm::igs, sent, i < 250 ? 0 : 1));
+    }
+    ephemeris.begin(epochs[i].time);
+    const PppSolution& solution = filter.process(epochs[i]);
+    candidates.push_back(solution.integers.candidates);
+    variance.push_back(solution.covariance.trace());
+  }
+  EXPECT_GT(candidates[249], 3) << "the biases of the stream leave integers";
+  EXPECT_LT(variance[249], 1.01 * variance[248]);
+  EXPECT_GT(variance[250], 1.1 * variance[249]) << "the biases have jumped";
+}
+
+TEST(Ssr, ElectronsOfTheIonosphere) {
+  const GpsTime epoch = gps_time({2021, 9, 22, 6, 30, 0.0});
+  // 20 TECU, 4 more towards the pole by the normalized harmonic of degree 1, and a bulge that
+  // follows the sun.
+  const SsrLayer layer{
+      1, 1, {20.0, 4.0 / std::sqrt(3.0), 10.0 / std::sqrt(3.0)}, {-1.0 / std::sqrt(3.0)}};
+  for (const SsrForm form : {SsrForm::rtcm, SsrForm::igs}) {
+    CorrectedEphemeris ephemeris{BroadcastEphemeris(std::vector<NavigationFile>{})};
+    CorrectionStream stream(epoch);
+    feed(ephemeris, stream, maploop::testing::ssr_ionosphere(form, epoch, layer));
+    for (const double hours : {0.0, 0.1}) {
+      const GpsTime t = epoch + from_seconds(3600.0 * hours);
+      for (const double longitude : {-100.0, 0.0, 139.0}) {
+        const double latitude = radians(35.0);
+        const auto electrons = ephemeris.electrons().at({latitude, radians(longitude)}, t);
+        ASSERT_TRUE(electrons);
+        const double sun = radians(longitude + 15.0 * (6.5 + hours - 14.0));
+        EXPECT_NEAR(electrons->value,
+                    20.0 + 4.0 * std::sin(latitude) +
+                        std::cos(latitude) * (10.0 * std::cos(sun) - std::sin(sun)),
+                    0.02);
+        EXPECT_DOUBLE_EQ(electrons->sigma, 2.0);
+      }
+    }
+    EXPECT_FALSE(ephemeris.electrons().at({}, epoch + std::chrono::minutes(11))) << "too old";
+  }
 }
 
 }  // namespace
