@@ -30,14 +30,25 @@ bool has_doppler(const Tracked& t) {
   return t.code_good && t.measurement.first.doppler != 0.0;
 }
 
+// Returns how much weaker the signal is than an unobstructed one, dB.
+double missing_strength(const Tracked& t, const UnobstructedCn0& strength) {
+  const double cn0 = t.measurement.first.cn0;
+  if (cn0 == 0.0) return 0.0;
+  return std::max(0.0, strength.of(std::sin(t.predicted.elevation)) - cn0);
+}
+
 // Returns the variance relative to that at the zenith. It grows towards low elevations, and where
-// the signal is weaker than an unobstructed one, as in the SIGMA-delta model (Brunner, Hartinger
-// and Troyer, "GPS signal diffraction modelling", Journal of Geodesy 73, 1999).
-double variance_factor(const Tracked& t, const UnobstructedCn0& strength) {
-  const double sine = std::sin(t.predicted.elevation), cn0 = t.measurement.first.cn0;
-  const double missing = cn0 > 0.0 ? std::max(0.0, strength.of(sine) - cn0) : 0.0;
+// the signal is too weak, as in the SIGMA-delta model (Brunner, Hartinger and Troyer, "GPS signal
+// diffraction modelling", Journal of Geodesy 73, 1999).
+double variance_factor(const Tracked& t, double missing) {
+  const double sine = std::sin(t.predicted.elevation);
   constexpr double sigma_delta = 2.0;  // their factor on the missing strength
   return std::pow(10.0, sigma_delta * missing / 10.0) / (sine * sine);  // (10) of METHOD.md
+}
+
+// Returns the share of a signal's power that obstacles have taken: it was diffracted or reflected.
+double obstructed_share(double missing) {
+  return 1.0 - std::pow(10.0, -missing / 10.0);
 }
 
 // Adds the entries of the ionosphere's delay, of which `share` is that on GPS L1.
@@ -68,23 +79,14 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     const Tracked& t = tracked[i];
     if (!t.code_good) continue;
-    const double factor = variance_factor(t, strength);
+    const double missing = missing_strength(t, strength);
+    const double factor = variance_factor(t, missing);
     for (const Combination c : {Combination::range, Combination::ionosphere}) {
       if (c == Combination::ionosphere && !t.measurement.dual()) continue;
-      rows_.push_back(code_row(i, t, c, factor, reference_system, state));
-      if (t.phase_good) add_phase_row(i, t, c, factor, reference_system, state, reports);
+      rows_.push_back(code_row(i, t, c, factor, missing, reference_system, state));
+      if (t.phase_good) add_phase_row(i, t, c, factor, missing, reference_system, state, reports);
     }
-    if (!use_doppler || !has_doppler(t)) continue;
-    Row doppler;
-    doppler.kind = RowKind::doppler;
-    doppler.tracked = i;
-    doppler.y = drift_of(t, state) - state.x()[S::clock_drift];  // (9) of METHOD.md
-    for (int k = 0; k < 3; ++k) doppler.add(S::velocity + k, -t.predicted.to_satellite[k]);
-    doppler.add(S::clock_drift, 1.0);
-    const double sigma = parameters_.doppler_sigma;
-    doppler.variance = sigma * sigma * factor * t.level;  // (13) of METHOD.md
-    doppler.sigma = std::sqrt(doppler.variance);
-    rows_.push_back(doppler);
+    if (use_doppler && has_doppler(t)) rows_.push_back(doppler_row(i, t, factor, missing, state));
   }
   return rows_;
 }
@@ -131,7 +133,7 @@ Row EpochRows::range_row(std::size_t i, const Tracked& t, Combination c, double 
 }
 
 Row EpochRows::code_row(std::size_t i, const Tracked& t, Combination c, double factor,
-                        int reference_system, FilterState& state) const {
+                        double missing, int reference_system, FilterState& state) const {
   const Measurement& m = t.measurement;
   const int difference = S::code_difference + static_cast<int>(m.satellite.system);
   if (c == Combination::ionosphere && state.P()(difference, difference) == 0.0)
@@ -146,15 +148,41 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, Combination c, double f
   const bool range = c == Combination::range;
   const bool noisy_orbit = range && state.find(m.satellite, Part::range_error) < 0;
   const double noise = noisy_orbit ? t.predicted.satellite.sigma : 0.0;
-  row.variance = all * t.code_inflation + noise * noise;  // (11) of METHOD.md
+  const double first =
+      t.first_code ? std::lerp(1.0, parameters_.first_code_factor, obstructed_share(missing)) : 1.0;
+  row.variance = all * t.code_inflation * first + noise * noise;  // (11) of METHOD.md
+  row.most_sigmas = parameters_.outlier_sigmas;
   row.sigma = std::sqrt(all + noise * noise);
-  if (range) row.delay = std::sqrt(std::max(0.0, all - direct) / 2.0);
+  if (range) row.delay = 0.5 * std::sqrt(std::max(0.0, all - direct));
   row.y += m.code(c) - row.delay;  // (7) of METHOD.md
   return row;
 }
 
+Row EpochRows::doppler_row(std::size_t i, const Tracked& t, double factor, double missing,
+                           const FilterState& state) const {
+  Row row;
+  row.kind = RowKind::doppler;
+  row.tracked = i;
+  row.y = drift_of(t, state) - state.x()[S::clock_drift];  // (9) of METHOD.md
+  for (int k = 0; k < 3; ++k) row.add(S::velocity + k, -t.predicted.to_satellite[k]);
+  row.add(S::clock_drift, 1.0);
+  const double noise = parameters_.doppler_sigma;
+  const double reflected = parameters_.reflected_doppler * state.x().segment<3>(S::velocity).norm();
+  row.variance = noise * noise * factor * t.level +
+                 reflected * reflected * obstructed_share(missing);  // (13) of METHOD.md
+  row.sigma = std::sqrt(row.variance);
+  row.most_sigmas = most_sigmas(missing);
+  return row;
+}
+
+// Phases and Dopplers of obstructed signals are judged more strictly.
+double EpochRows::most_sigmas(double missing) const {
+  return std::lerp(parameters_.outlier_sigmas, parameters_.obstructed_outlier_sigmas,
+                   obstructed_share(missing));
+}
+
 void EpochRows::add_phase_row(std::size_t i, const Tracked& t, Combination c, double factor,
-                              int reference_system, FilterState& state,
+                              double missing, int reference_system, FilterState& state,
                               std::vector<SatelliteReport>& reports) {
   const Measurement& m = t.measurement;
   Row row = range_row(i, t, c, -1.0, reference_system, state);
@@ -180,6 +208,7 @@ void EpochRows::add_phase_row(std::size_t i, const Tracked& t, Combination c, do
   const double inflated = sigma(t.phase_inflation);
   row.sigma = sigma(1.0);
   row.variance = inflated * inflated;  // (12) of METHOD.md
+  row.most_sigmas = most_sigmas(missing);
   rows_.push_back(row);
 }
 

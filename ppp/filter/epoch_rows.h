@@ -22,7 +22,8 @@ struct Row : LinearRow {
   std::size_t tracked = 0;  // index into the epoch's tracked satellites
   Combination combination = Combination::range;
   double sigma = 0.0;
-  double delay = 0.0;  // m, by which y has been shortened, because a reflection is expected
+  double most_sigmas = 3.0;  // beyond so many of them its residual is an outlier
+  double delay = 0.0;        // m, by which y has been shortened, because a reflection is expected
   bool active = true;
   bool new_ambiguity = false;  // on a phase: its ambiguity is new, so it carries no information yet
   bool doubtful = false;       // it is not active, but other phases may be the wrong ones instead
@@ -47,9 +48,12 @@ class EpochRows {
   // `factor` scales the satellite's variances relative to the zenith.
   Row range_row(std::size_t i, const Tracked& t, Combination c, double sign, int reference_system,
                 const FilterState& state) const;
-  Row code_row(std::size_t i, const Tracked& t, Combination c, double factor, int reference_system,
-               FilterState& state) const;
-  void add_phase_row(std::size_t i, const Tracked& t, Combination c, double factor,
+  Row code_row(std::size_t i, const Tracked& t, Combination c, double factor, double missing,
+               int reference_system, FilterState& state) const;
+  double most_sigmas(double missing) const;
+  Row doppler_row(std::size_t i, const Tracked& t, double factor, double missing,
+                  const FilterState& state) const;
+  void add_phase_row(std::size_t i, const Tracked& t, Combination c, double factor, double missing,
                      int reference_system, FilterState& state,
                      std::vector<SatelliteReport>& reports);
   void set_drift(const std::vector<Tracked>& tracked, FilterState& state);

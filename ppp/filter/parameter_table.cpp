@@ -77,6 +77,10 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
   constexpr DataChoice measured_ionosphere_walk_choice{
       "simulated canyons, seeds 1 to 10", "among 3, 6, 10, 20 and 30 mm/sqrt(s) by the errors",
       "PPP between houses, seeds 1 to 10"};
+  constexpr DataChoice reflections_choice{
+      "simulated canyons, seeds 1 to 10 and 101 to 130, Kamakura car and Riverside",
+      "among a handful of values each by the errors in canyons; the real drives do not get worse",
+      "PPP between houses, these seeds; PPP of Kamakura and of Riverside"};
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"motion", one_of<&P::motion>, usual, "Whether the receiver moves."},
       {"systems", &P::systems, usual,
@@ -105,6 +109,11 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Factor on phase_sigma for satellites in the earth's shadow, whose attitude is not known."},
       {"doppler_sigma", &P::doppler_sigma, smallest, any_sigma, "m/s", expert,
        "The same for the Doppler shift."},
+      {"reflected_doppler", &P::reflected_doppler, 0.0, 10.0, "1", expert,
+       "Standard deviation of the Doppler shift of a signal that is surely reflected, as a share "
+       "of "
+       "the speed.",
+       reflections_choice},
       {"glonass_code_factor", &P::glonass_code_factor, smallest, 1000.0, "1", expert,
        "Factor on code_sigma for GLONASS, whose channels have biases of their own."},
       {"code_correlation", &P::code_correlation, 0.0, long_time, "s", expert,
@@ -116,9 +125,19 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"glonass_code_correlation", &P::glonass_code_correlation, 0.0, long_time, "s", expert,
        "Correlation time of the code biases of the GLONASS channels.",
        glonass_code_correlation_choice},
+      {"first_code_factor", &P::first_code_factor, 1.0, 1000.0, "1", expert,
+       "Factor on the variance of a satellite's first code if obstacles have weakened its signal "
+       "to "
+       "nothing: its error lasts.",
+       reflections_choice},
+      {"late_code_freedom", &P::late_code_freedom, smallest, 1e9, "1", expert,
+       "Degrees of freedom of the errors of codes that are too long: a residual of as many "
+       "variances doubles the variance.",
+       reflections_choice},
       {"code_level_time", &P::code_level_time, 0.1, long_time, "s", expert,
        "Time for which a satellite's code residuals are remembered. Larger residuals than expected "
-       "come from reflections and enlarge the variance."},
+       "come from reflections and enlarge the variance.",
+       reflections_choice},
       {"full_cn0", &P::full_cn0, 0.0, 100.0, "dB-Hz", expert,
        "Carrier-to-noise density of a signal without obstacles at the zenith; 5 % of the signals "
        "of three receivers under open sky are weaker. Below it the variance doubles every 1.5 dB. "
@@ -149,7 +168,8 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"gradient_walk", &P::gradient_walk, 0.0, 1.0, "m/sqrt(s)", expert,
        "Random walk of a gradient."},
       {"horizontal_acceleration", &P::horizontal_acceleration, 0.0, 1e4, "m^2/s^3", usual,
-       "Power spectral density of the white horizontal acceleration of a moving receiver."},
+       "Power spectral density of the white horizontal acceleration of a moving receiver.",
+       reflections_choice},
       {"vertical_speed_sigma", &P::vertical_speed_sigma, smallest, 1e4, "m/s", usual,
        "Standard deviation of the vertical speed of a moving receiver, which the slopes of roads "
        "bound.",
@@ -223,6 +243,9 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"outlier_sigmas", &P::outlier_sigmas, 0.1, any_gate, "1", expert,
        "Post-fit residual in standard deviations beyond which a measurement is an outlier.",
        outlier_sigmas_choice},
+      {"obstructed_outlier_sigmas", &P::obstructed_outlier_sigmas, 0.1, any_gate, "1", expert,
+       "The same for phases and Doppler shifts of signals that obstacles have weakened to nothing.",
+       reflections_choice},
       {"outlier_rejections", &P::outlier_rejections, 0, 100, "rows", expert,
        "Measurements of an epoch that are left out one at a time at most."},
       {"doubtful_phase_sigma", &P::doubtful_phase_sigma, 0.0, any_sigma, "m", expert,
@@ -237,7 +260,8 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Epochs for which a satellite may be missing and keep its ambiguity."},
       {"restart_epochs", &P::restart_epochs, 1, 1e6, "epochs", expert,
        "Epochs in a row in which measurements disagree with the position until the filter "
-       "restarts."},
+       "restarts.",
+       reflections_choice},
       {"restart_variance", &P::restart_variance, 1.0, any_gate, "1", expert,
        "Mean square of the codes' residuals in standard deviations beyond which they disagree."},
 

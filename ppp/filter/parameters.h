@@ -42,11 +42,14 @@ struct PppParameters {
   double phase_correlation = 10.0;           // s, of the error that the carriers have in common
   double shadow_phase_factor = 4.0;          // on phase_sigma in the earth's shadow
   double doppler_sigma = 0.10;               // m/s
+  double reflected_doppler = 0.3;            // sigma of a reflected one, as a share of the speed
   double glonass_code_factor = 3.0;          // on code_sigma for GLONASS
   double code_correlation = 40.0;            // s
   double code_correlation_distance = 50.0;   // m
   double glonass_code_correlation = 7200.0;  // s
-  double code_level_time = 100.0;            // s
+  double first_code_factor = 2.0;            // on the variance of an obstructed first code
+  double late_code_freedom = 4.0;            // degrees of freedom of codes that are too long
+  double code_level_time = 30.0;             // s
   double full_cn0 = 47.0;                    // dB-Hz
   double full_cn0_drop = 14.5;               // dB
   double full_cn0_margin = 4.0;              // dB
@@ -57,7 +60,7 @@ struct PppParameters {
   bool gradients = true;                     // whether the troposphere's are estimated
   double gradient_sigma = 0.001;             // m
   double gradient_walk = 3e-6;               // m/sqrt(s)
-  double horizontal_acceleration = 2.0;      // m^2/s^3
+  double horizontal_acceleration = 4.0;      // m^2/s^3
   double vertical_speed_sigma = 0.5;         // m/s
   double vertical_speed_time = 20.0;         // s
   bool carried_by_motion = true;             // whether the vehicle's own motion moves the position
@@ -87,12 +90,13 @@ struct PppParameters {
   double velocity_sigma = 10.0;              // m/s
   double model_sigma = 0.01;                 // m
   double outlier_sigmas = 3.0;               // post-fit residual beyond which there is an outlier
+  double obstructed_outlier_sigmas = 2.0;    // the same of obstructed phases and Dopplers
   int outlier_rejections = 8;                // most measurements of an epoch left out singly
   double doubtful_phase_sigma = 1.0;         // m
   double code_gate = 30.0;                   // m
   double code_gate_sigmas = 4.0;             // of the position, by which code_gate is wider
   int longest_gap = 10;           // epochs that a satellite may miss and keep its ambiguity
-  int restart_epochs = 5;         // epochs in a row that disagree until the filter restarts
+  int restart_epochs = 10;        // epochs in a row that disagree until the filter restarts
   double restart_variance = 9.0;  // mean square of normalized code residuals that disagrees
 
   // --- Slips

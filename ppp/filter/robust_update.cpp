@@ -18,7 +18,7 @@ constexpr double least_share = 1e-3;
 
 Row* RobustUpdate::worst(const FilterState& state, std::vector<Row>& rows) const {
   Row* worst = nullptr;
-  double largest = outlier_sigmas_;
+  double largest = 1.0;  // of what a row may have
   for (Row& row : rows) {
     if (!row.active) continue;
     double sigma = row.sigma;  // (15) of METHOD.md
@@ -27,7 +27,7 @@ Row* RobustUpdate::worst(const FilterState& state, std::vector<Row>& rows) const
       if (share < least_share) continue;
       sigma *= std::sqrt(share);  // (16) of METHOD.md
     }
-    const double normalized = std::abs(row.residual_after(dx_)) / sigma;
+    const double normalized = std::abs(row.residual_after(dx_)) / (sigma * row.most_sigmas);
     if (normalized > largest) {
       largest = normalized;
       worst = &row;
@@ -52,6 +52,16 @@ void RobustUpdate::reapply(FilterState& state, const std::vector<Row>& rows) {
   apply_once(state, rows);
 }
 
+void RobustUpdate::weigh_late_codes(FilterState& state, const std::vector<Row>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    if (row.kind != RowKind::code || row.combination != Combination::range) continue;
+    const double late = std::max(0.0, row.residual_after(dx_) / row.sigma);
+    variance_factors_[i] = 1.0 + late * late / late_freedom_;
+  }
+  reapply(state, rows);
+}
+
 // Several outliers can move the state so far that good rows fit worse than the outliers do.
 // Weighting by the residuals minimizes the sum of absolute values instead, which outliers move
 // less.
@@ -65,8 +75,10 @@ void RobustUpdate::reject_together(FilterState& state, std::vector<Row>& rows) {
     }
     reapply(state, rows);
   }
-  for (Row& row : rows) row.active = row.kind == RowKind::code || misfit(row) <= outlier_sigmas_;
-  std::fill(variance_factors_.begin(), variance_factors_.end(), 1.0);
+  for (Row& row : rows) row.active = row.kind == RowKind::code || misfit(row) <= row.most_sigmas;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].kind != RowKind::code) variance_factors_[i] = 1.0;
+  }
   reapply(state, rows);
   readmit(state, rows);
 }
@@ -77,7 +89,7 @@ void RobustUpdate::readmit(FilterState& state, std::vector<Row>& rows) {
   for (Row& row : rows) {
     if (row.active) continue;
     const double variance = row.sigma * row.sigma + predicted_variance(state, row);
-    row.active = std::abs(row.residual_after(dx_)) <= outlier_sigmas_ * std::sqrt(variance);
+    row.active = std::abs(row.residual_after(dx_)) <= row.most_sigmas * std::sqrt(variance);
     again |= row.active;
   }
   if (!again) return;
@@ -114,7 +126,11 @@ void RobustUpdate::apply(FilterState& state, std::vector<Row>& rows) {
   variance_factors_.reserve(rows.capacity());
   variance_factors_.assign(rows.size(), 1.0);
   apply_once(state, rows);
-  if (worst(state, rows) != nullptr) reject_together(state, rows);
+  weigh_late_codes(state, rows);
+  if (worst(state, rows) != nullptr) {
+    reject_together(state, rows);
+    weigh_late_codes(state, rows);
+  }
   for (int pass = 0;; ++pass) {
     Row* const misfit = worst(state, rows);
     if (misfit == nullptr || pass == max_rejections_) break;

@@ -11,11 +11,15 @@ namespace maploop::ppp {
 class RobustUpdate {
  public:
   explicit RobustUpdate(const PppParameters& parameters)
-      : outlier_sigmas_(parameters.outlier_sigmas),
+      : late_freedom_(parameters.late_code_freedom),
         max_rejections_(parameters.outlier_rejections),
         doubtful_variance_(parameters.doubtful_phase_sigma * parameters.doubtful_phase_sigma),
         dx_(FilterState::capacity) {}
 
+  // Codes that are too long lose weight by their residual, as if that half of their errors had
+  // Student's t-distribution: signals that were reflected arrive late. Codes that are too short do
+  // not.
+  //
   // If a row does not fit, a solution by least absolute values is computed (Schlossmacher, "An
   // iterative technique for absolute deviations curve fitting", JASA 68, 1973), and all phases and
   // Dopplers that do not fit it become inactive. Those of them that fit the solution of the
@@ -38,12 +42,13 @@ class RobustUpdate {
  private:
   void apply_once(FilterState& state, const std::vector<Row>& rows);
   void reapply(FilterState& state, const std::vector<Row>& rows);
+  void weigh_late_codes(FilterState& state, const std::vector<Row>& rows);
   void reject_together(FilterState& state, std::vector<Row>& rows);
   void readmit(FilterState& state, std::vector<Row>& rows);
   void distrust_phases(FilterState& state, std::vector<Row>& rows);
   Row* worst(const FilterState& state, std::vector<Row>& rows) const;
 
-  double outlier_sigmas_;
+  double late_freedom_;
   int max_rejections_;
   double doubtful_variance_;  // m^2
   FilterState before_;

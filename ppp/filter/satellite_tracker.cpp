@@ -10,9 +10,8 @@ namespace {
 
 using S = FilterState;
 
-// A satellite's first code has its full weight, each later one only (1 - r) / (1 + r) of it: its
-// error is a first-order Gauss-Markov process with the correlation r since the previous code,
-// `since` s ago.
+// Each code after a satellite's first has only (1 - r) / (1 + r) of the full weight: its error is a
+// first-order Gauss-Markov process with the correlation r since the previous code, `since` s ago.
 void weigh_later_errors(Tracked& tracked, double since, double speed,
                         const PppParameters& parameters) {
   // (14) of METHOD.md
@@ -90,6 +89,7 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
     tracked.code_offset = m.code(Combination::range) - predicted->code(m, Combination::range);
     tracked.level = levels.of(m.satellite);
     double since = 0.0;
+    tracked.first_code = !memory.last_code;
     if (memory.last_code) {
       since = std::abs(to_seconds(t - *memory.last_code));
       weigh_later_errors(tracked, since, speed, parameters);

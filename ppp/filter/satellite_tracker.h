@@ -23,6 +23,7 @@ struct Tracked {
   double code_inflation = 1.0;   // factor on the code's variance: its error outlasts an epoch
   double phase_inflation = 1.0;  // the same of the error that its phases have in common
   double level = 1.0;            // factor on all variances, if the codes' residuals are large
+  bool first_code = true;        // the satellite had none before
   bool code_good = true;
   bool phase_good = true;
   bool new_source = false;  // its orbit and clock come from another source than before
