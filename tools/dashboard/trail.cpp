@@ -28,13 +28,12 @@ void Trail::add(const NavState& state) {
     truth_.clear();
     started_ = true;
   }
-  append(fused_, {state.stamp, state.position_enu.x(), state.position_enu.y()});
+  append(fused_, {state.stamp, state.position_enu});
 }
 
 void Trail::add(const ReferencePose& truth) {
   if (!started_) return;
-  const Eigen::Vector3d p = frame_.to_enu(truth.position);
-  append(truth_, {truth.stamp, p.x(), p.y()});
+  append(truth_, {truth.stamp, frame_.to_enu(truth.position)});
 }
 
 std::string Trail::json() const {
@@ -42,8 +41,8 @@ std::string Trail::json() const {
     auto all = nlohmann::json::array();
     for (const Point& p : points) {
       const double seconds = static_cast<double>(to_nanoseconds(p.stamp)) * 1e-9;
-      all.push_back({std::round(seconds * 1e3) / 1e3, std::round(p.east * 1e2) / 1e2,
-                     std::round(p.north * 1e2) / 1e2});
+      const Eigen::Vector3d enu = (p.enu * 1e2).array().round() / 1e2;
+      all.push_back({std::round(seconds * 1e3) / 1e3, enu.x(), enu.y(), enu.z()});
     }
     return all;
   };

@@ -17,14 +17,14 @@ class Trail {
   void add(const NavState& state);
   void add(const ReferencePose& truth);  // ignored before the first state
 
-  // Returns {"origin": [latitude, longitude, height (rad, m)], "fused": [[s, east, north], ...],
-  // "truth": ...}.
+  // Returns {"origin": [latitude, longitude, height (rad, m)], "fused": [[s, east, north, up],
+  // ...], "truth": ...}.
   std::string json() const;
 
  private:
   struct Point {
     Time stamp;
-    double east, north;  // m
+    Eigen::Vector3d enu;  // m
   };
   static void append(std::deque<Point>& points, const Point& point);
 

@@ -149,7 +149,7 @@ TEST(Relay, TheTrailForgetsWhatAReplayGoesBackOver) {
   relay.take("NAV_STATE", encoded(to_lcm(state_at(4))), Duration(0));
   trail = json::parse(relay.trail());
   ASSERT_EQ(trail["fused"].size(), 4u);
-  EXPECT_EQ(trail["fused"][3], json::parse("[4.0, 4.0, -8.0]"));
+  EXPECT_EQ(trail["fused"][3], json::parse("[4.0, 4.0, -8.0, 0.0]"));
 }
 
 TEST(Relay, KeepsTheRunsAndTheirPlayersApart) {

@@ -117,7 +117,9 @@ export class Curves {
   // Puts what is shown into the address.
   remember(): void {
     const curves = this.charts.map((chart) => chart.names.join(",")).join(";");
-    history.replaceState(null, "", `#${new URLSearchParams({ curves })}`);
+    const hash = new URLSearchParams(location.hash.slice(1));
+    hash.set("curves", curves);
+    history.replaceState(null, "", `#${hash}`);
   }
 
   private append(names: string[]): void {

@@ -4,9 +4,10 @@ import "../design/base.css";
 import "./dashboard.css";
 
 import { Curves } from "./curves";
-import { button, element } from "./dom";
+import { element } from "./dom";
 import { listen, trail, type Run, type Verdict } from "./live";
-import { LiveMap } from "./live_map";
+import { LivePlace } from "./live_place";
+import { LiveWorld } from "./live_world";
 import { themeSwitch } from "./palette";
 import { showAids, showDeadlines, showHealth, showPpp, showRoad, showState } from "./panels";
 import { PlayerBar } from "./player";
@@ -18,10 +19,8 @@ const silent_after = 3000; // ms
 const main = element("main", document.body);
 const left = element("div", main, "", "left");
 const place = element("section", left, "", "place");
-const canvas = element("canvas", place) as HTMLCanvasElement;
-const legend = element("div", place, "", "legend");
-for (const [name, token] of [["truth", "truth"], ["fused", "fused"], ["fixes", "gnss"], ["matched", "matched"]] as const)
-  element("span", legend, name).style.setProperty("--key", `var(--${token})`);
+const world = new LiveWorld();
+new LivePlace(place, world);
 const views = new Views(element("section", left, "", "views"));
 const signals = new Signals();
 new Curves(element("section", left, "", "curves"), signals);
@@ -49,21 +48,6 @@ const deadlines = panel("Deadlines");
 const health = panel("Health");
 const player = new PlayerBar(element("footer", document.body));
 
-const buttons = element("div", place, "", "buttons");
-const follow = button(buttons, "◎", "Follow the vehicle", () => setFollow(true));
-const map = new LiveMap(canvas, () => setFollow(false));
-button(buttons, "+", "Nearer", () => map.zoom(1.5));
-button(buttons, "−", "Farther", () => map.zoom(1 / 1.5));
-button(buttons, "⤢", "Show all", () => {
-  setFollow(false);
-  map.fit();
-});
-
-function setFollow(yes: boolean): void {
-  map.follow = yes;
-  follow.classList.toggle("on", yes);
-}
-setFollow(true);
 themeSwitch(place);
 
 let heardAt = -Infinity;
@@ -99,15 +83,15 @@ setInterval(showNotice, 500);
 listen(
   {
     NAV_STATE: (s) => {
-      map.addState(s);
+      world.addState(s);
       showState(state, s);
       showAids(aids, s);
     },
-    TRUTH: (pose) => map.addTruth(pose),
-    GNSS_FIX: (fix) => map.addFix(fix),
+    TRUTH: (pose) => world.addTruth(pose),
+    GNSS_FIX: (fix) => world.addFix(fix),
     MAP_MATCH: (m) => {
       road.parentElement!.hidden = false;
-      map.addMatch(m);
+      world.addMatch(m);
       showRoad(road, m);
     },
     PPP_STATE: (p) => {
@@ -115,7 +99,10 @@ listen(
       showPpp(ppp, p);
       views.showSky(p);
     },
-    PREVIEW: (p) => views.showPreview(p),
+    PREVIEW: (p) => {
+      views.showPreview(p);
+      world.addScan(p);
+    },
     DEADLINES: (d) => showDeadlines(deadlines, d),
     HEALTH: (h) => showHealth(health, h),
     VERDICT: (v) => {
@@ -134,7 +121,7 @@ listen(
     showNotice();
     if (yes) {
       trail().then(
-        (t) => map.load(t),
+        (t) => world.load(t),
         () => undefined, // the trail begins now
       );
     }

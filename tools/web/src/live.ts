@@ -40,6 +40,7 @@ export interface Fix extends Pose {
 export interface Candidate {
   road: string;
   way_id: number;
+  distance: number | null; // m, of the vehicle
   likelihood: number;
   probability: number;
   rules: string[];
@@ -114,6 +115,7 @@ export interface Preview {
   track_from_v: number[];
   track_u: number[];
   track_v: number[];
+  scan_stamp_ns: number; // of the points
   point_count: number; // 0: no scan
   point_x: number[]; // cm: forward
   point_y: number[]; // left
@@ -172,8 +174,8 @@ export interface Run {
 
 export interface Trail {
   origin: [number, number, number];
-  fused: [number, number, number][]; // s, east, north
-  truth: [number, number, number][];
+  fused: [number, number, number, number][]; // s, east, north, up
+  truth: [number, number, number, number][];
 }
 
 export interface Messages {
