@@ -19,6 +19,7 @@
 #include "tools/dashboard/foxglove_server.h"
 #include "tools/dashboard/live_channels.h"
 #include "tools/dashboard/relay.h"
+#include "tools/dashboard/sender_listener.h"
 #include "tools/dashboard/server.h"
 #include "tools/match/road_lines.h"
 #include "tools/web/bundle.h"
@@ -81,8 +82,16 @@ int run(const DashboardOptions& options) {
   dashboard::LiveChannels channels;
   dashboard::Relay relay(channels);
   std::optional<dashboard::FoxgloveBridge> foxglove;
-  BusListener bus(vehicle::bus_url(options.lcm_url), ".*", [&](auto channel, auto data) {
-    relay.take(channel, data, now());
+  const std::string url = vehicle::bus_url(options.lcm_url);
+  std::optional<dashboard::SenderListener> senders;
+  if (dashboard::SenderListener::understands(url)) {
+    senders.emplace(url, [&](auto sender, auto channel, auto data) {
+      relay.take(sender, channel, data, now());
+    });
+  }
+  const bool listens = !senders || options.foxglove;
+  BusListener bus(url, listens ? ".*" : "none", [&](auto channel, auto data) {
+    if (!senders) relay.take("", channel, data, now());
     if (foxglove) foxglove->take({.time_us = wall_us(), .channel = channel, .data = data});
   });
   const auto control = [&](const std::string& run, const std::string& kind, double value) {
@@ -95,7 +104,7 @@ int run(const DashboardOptions& options) {
   }
   const dashboard::Server server(
       options.address, options.port, channels,
-      {[&] { return relay.trail(); }, control,
+      {[&](const std::string& id) { return relay.trail(id); }, control,
        [&](const Geodetic& origin) { return roads_about(network ? &*network : nullptr, origin); }});
   note_interrupts();
   std::cout << "http://" << options.address << ':' << server.port() << "/  (Ctrl-C ends it)"
@@ -107,7 +116,8 @@ int run(const DashboardOptions& options) {
   const auto end = Clock::now() + from_seconds(options.seconds);
   auto next = Clock::now();
   while (!interrupted() && (options.seconds == 0.0 || Clock::now() < end)) {
-    bus.listen(listen_ms);
+    if (senders) senders->listen(listen_ms);
+    bus.listen(senders ? 0 : listen_ms);
     if (Clock::now() < next) continue;
     relay.pass_on(now());
     next = Clock::now() + pass_on_every;

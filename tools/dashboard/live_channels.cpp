@@ -4,25 +4,40 @@
 
 namespace maploop::dashboard {
 
-void LiveChannels::put(const std::string& channel, std::string json) {
+void LiveChannels::put(const std::string& run, const std::string& channel, std::string json) {
   {
     const std::lock_guard lock(mutex_);
-    channels_[channel] = {std::move(json), ++version_};
+    channels_[{run, channel}] = {std::move(json), ++version_};
   }
   changed_.notify_all();
 }
 
-std::vector<LiveChannels::Message> LiveChannels::newer(std::uint64_t& seen,
+void LiveChannels::forget(const std::string& run) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(channels_, [&](const auto& entry) { return entry.first.first == run; });
+}
+
+std::vector<LiveChannels::Message> LiveChannels::messages(const std::string& run,
+                                                          std::uint64_t after) const {
+  std::vector<Message> messages;
+  for (const auto& [name, entry] : channels_) {
+    const auto& [of, channel] = name;
+    if ((of == run || of == all_runs) && entry.version > after)
+      messages.push_back({channel, entry.json});
+  }
+  return messages;
+}
+
+std::vector<LiveChannels::Message> LiveChannels::newer(const std::string& run, std::uint64_t& seen,
                                                        std::chrono::milliseconds at_most) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, at_most, [&] { return closed_ || version_ > seen; });
-  std::vector<Message> messages;
-  if (closed_) return messages;
-  for (const auto& [channel, entry] : channels_) {
-    if (entry.version > seen) messages.push_back({channel, entry.json});
-  }
+  std::vector<Message> found;
+  changed_.wait_for(lock, at_most, [&] {
+    if (!closed_) found = messages(run, seen);
+    return closed_ || !found.empty();
+  });
   seen = version_;
-  return messages;
+  return found;
 }
 
 void LiveChannels::close() {

@@ -74,7 +74,7 @@ struct Server::Http {
       : listens_at(std::move(address)), channels(all), handlers(std::move(to)) {}
 
   void add_routes();
-  void stream(httplib::Response& response);
+  void stream(const std::string& run, httplib::Response& response);
   void control(const httplib::Request& request, httplib::Response& response) const;
   void roads(const httplib::Request& request, httplib::Response& response) const;
 
@@ -87,7 +87,7 @@ struct Server::Http {
   std::thread thread;
 };
 
-void Server::Http::stream(httplib::Response& response) {
+void Server::Http::stream(const std::string& run, httplib::Response& response) {
   if (++browsers > most_browsers) {
     --browsers;
     refuse(response, 503,
@@ -99,9 +99,9 @@ void Server::Http::stream(httplib::Response& response) {
   auto seen = std::make_shared<std::uint64_t>(0);
   response.set_chunked_content_provider(
       "text/event-stream",
-      [this, seen](std::size_t, httplib::DataSink& sink) {
+      [this, run, seen](std::size_t, httplib::DataSink& sink) {
         std::string text;
-        for (const LiveChannels::Message& m : channels.newer(*seen, sign_of_life)) {
+        for (const LiveChannels::Message& m : channels.newer(run, *seen, sign_of_life)) {
           text += "data: {\"channel\":\"" + m.channel + "\",\"message\":" + m.json + "}\n\n";
         }
         if (channels.closed()) return false;
@@ -162,14 +162,15 @@ void Server::Http::add_routes() {
   server.Get("/", [](const httplib::Request&, httplib::Response& response) {
     response.set_content(page(), "text/html; charset=utf-8");
   });
-  server.Get("/trail", [this](const httplib::Request&, httplib::Response& response) {
-    response.set_content(handlers.trail(), "application/json");
+  server.Get("/trail", [this](const httplib::Request& request, httplib::Response& response) {
+    response.set_content(handlers.trail(request.get_param_value("run")), "application/json");
   });
   server.Get("/roads", [this](const httplib::Request& request, httplib::Response& response) {
     roads(request, response);
   });
-  server.Get("/events",
-             [this](const httplib::Request&, httplib::Response& response) { stream(response); });
+  server.Get("/events", [this](const httplib::Request& request, httplib::Response& response) {
+    stream(request.get_param_value("run"), response);
+  });
   server.Post("/control", [this](const httplib::Request& request, httplib::Response& response) {
     control(request, response);
   });

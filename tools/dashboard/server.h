@@ -12,10 +12,10 @@
 namespace maploop::dashboard {
 
 //   GET  /         the page
-//   GET  /trail    the path of the vehicle so far
+//   GET  /trail    ?run=ID: the path of the vehicle so far
 //   GET  /roads    ?latitude=RAD&longitude=RAD&height=M: roads around this origin, in its metres
-//   GET  /events   server-sent events, each {"channel": ..., "message": ...}; at most ten updates a
-//                  second
+//   GET  /events   ?run=ID: server-sent events of a run, each {"channel": ..., "message": ...}; at
+//                  most ten updates a second
 //   POST /control  {"run": ID, "kind": "pause", "value": 0}: a command to the player of a replay
 // A request is refused if its Host is neither localhost nor the address that the server listens at
 // (with 0.0.0.0: any numeric address), or if it comes from another site's page.
@@ -25,7 +25,7 @@ class Server {
   static constexpr std::chrono::seconds patience{5};  // longest time without reading
 
   struct Handlers {
-    std::function<std::string()> trail;  // JSON; on any thread
+    std::function<std::string(const std::string& run)> trail;  // JSON; on any thread
     // Returns an empty text if the command was sent, otherwise the reason of its refusal. Called on
     // any thread.
     std::function<std::string(const std::string& run, const std::string& kind, double value)>

@@ -23,6 +23,8 @@ using std::chrono::milliseconds;
 
 using schema::encoded;
 
+const std::string a_run = "0000000a";
+
 json as_json(const std::vector<std::uint8_t>& bytes) {
   return json::parse(lcm_log::to_json(try_decode(schema::own_schema(), bytes).value()));
 }
@@ -71,19 +73,33 @@ TEST(MessageJson, HistogramsAreLeftOut) {
 TEST(LiveChannels, ASlowBrowserGetsTheNewestOfEach) {
   LiveChannels channels;
   std::uint64_t seen = 0;
-  EXPECT_TRUE(channels.newer(seen, milliseconds(0)).empty());
-  channels.put("A", "1");
-  channels.put("B", "2");
-  channels.put("A", "3");
-  const auto first = channels.newer(seen, milliseconds(0));
+  EXPECT_TRUE(channels.newer(a_run, seen, milliseconds(0)).empty());
+  channels.put(a_run, "A", "1");
+  channels.put(a_run, "B", "2");
+  channels.put(a_run, "A", "3");
+  const auto first = channels.newer(a_run, seen, milliseconds(0));
   ASSERT_EQ(first.size(), 2u);
   EXPECT_EQ(first[0].json, "3");
-  channels.put("B", "4");
-  const auto second = channels.newer(seen, milliseconds(0));
+  channels.put(a_run, "B", "4");
+  const auto second = channels.newer(a_run, seen, milliseconds(0));
   ASSERT_EQ(second.size(), 1u);
   EXPECT_EQ(second[0].channel, "B");
   std::uint64_t later = 0;
-  EXPECT_EQ(channels.newer(later, milliseconds(0)).size(), 2u) << "who comes later sees all";
+  EXPECT_EQ(channels.newer(a_run, later, milliseconds(0)).size(), 2u) << "who comes later sees all";
+}
+
+TEST(LiveChannels, AMessageIsForTheBrowsersOfItsRunAlone) {
+  LiveChannels channels;
+  channels.put(a_run, "A", "1");
+  channels.put("0000000b", "A", "2");
+  channels.put(LiveChannels::all_runs, "RUNS", "3");
+  std::uint64_t seen = 0, later = 0;
+  const auto messages = channels.newer("0000000b", seen, milliseconds(0));
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(messages[0].channel, "RUNS");
+  EXPECT_EQ(messages[1].json, "2");
+  channels.forget("0000000b");
+  EXPECT_EQ(channels.newer("0000000b", later, milliseconds(0)).size(), 1u);
 }
 
 TEST(LiveChannels, EachOfSeveralBrowsersSeesTheLastMessage) {
@@ -95,11 +111,11 @@ TEST(LiveChannels, EachOfSeveralBrowsersSeesTheLastMessage) {
     browsers.emplace_back([&channels, &mine] {
       std::uint64_t seen = 0;
       while (mine != "999") {
-        for (const auto& m : channels.newer(seen, milliseconds(1000))) mine = m.json;
+        for (const auto& m : channels.newer(a_run, seen, milliseconds(1000))) mine = m.json;
       }
     });
   }
-  for (int i = 0; i < 1000; ++i) channels.put("A", std::to_string(i));
+  for (int i = 0; i < 1000; ++i) channels.put(a_run, "A", std::to_string(i));
   for (std::thread& browser : browsers) browser.join();
   EXPECT_EQ(last, std::vector<std::string>(3, "999"));
 }
@@ -108,7 +124,7 @@ TEST(LiveChannels, ClosingEndsAWait) {
   LiveChannels channels;
   std::thread waits([&] {
     std::uint64_t seen = 0;
-    EXPECT_TRUE(channels.newer(seen, std::chrono::hours(1)).empty());
+    EXPECT_TRUE(channels.newer(a_run, seen, std::chrono::hours(1)).empty());
   });
   channels.close();
   waits.join();
@@ -117,19 +133,21 @@ TEST(LiveChannels, ClosingEndsAWait) {
 TEST(Relay, PassesOnTheNewestAndLeavesOutCommands) {
   LiveChannels channels;
   Relay relay(channels);
-  relay.take("NAV_STATE", encoded(to_lcm(state_at(1))), Duration(0));
-  relay.take("NAV_STATE", encoded(to_lcm(state_at(2))), Duration(0));
-  relay.take("REPLAY_CONTROL", encoded_command("0123abcd", "pause", 0.0), Duration(0));
-  relay.take("SOMEBODY", std::vector<std::uint8_t>{1, 2, 3}, Duration(0));
-  relay.pass_on(Duration(0));
+  relay.take("a", "NAV_STATE", encoded(to_lcm(state_at(1))), Duration(0));
+  relay.take("a", "NAV_STATE", encoded(to_lcm(state_at(2))), Duration(0));
+  relay.take("a", "REPLAY_CONTROL", encoded_command("0123abcd", "pause", 0.0), Duration(0));
+  relay.take("a", "SOMEBODY", std::vector<std::uint8_t>{1, 2, 3}, Duration(0));
   std::uint64_t seen = 0;
-  const auto messages = channels.newer(seen, milliseconds(0));
+  relay.pass_on(milliseconds(100));
+  EXPECT_EQ(channels.newer("others", seen, milliseconds(0)).size(), 1u) << "it may yet announce";
+  relay.pass_on(milliseconds(1600));
+  const auto messages = channels.newer("others", seen, milliseconds(0));
   ASSERT_EQ(messages.size(), 2u);
-  EXPECT_EQ(messages[1].json, "[]") << "no run has said itself";
-  EXPECT_EQ(json::parse(messages[0].json)["header"]["stamp_ns"], 2'000'000'000);
+  EXPECT_EQ(json::parse(messages[0].json)[0]["id"], "others");
+  EXPECT_EQ(json::parse(messages[1].json)["header"]["stamp_ns"], 2'000'000'000);
   EXPECT_EQ(relay.not_understood(), 1u);
-  relay.pass_on(Duration(0));
-  EXPECT_TRUE(channels.newer(seen, milliseconds(0)).empty()) << "nothing new has come";
+  relay.pass_on(milliseconds(1700));
+  EXPECT_TRUE(channels.newer("others", seen, milliseconds(0)).empty()) << "nothing new has come";
 }
 
 TEST(Relay, TheTrailForgetsWhatAReplayGoesBackOver) {
@@ -137,17 +155,19 @@ TEST(Relay, TheTrailForgetsWhatAReplayGoesBackOver) {
   Relay relay(channels);
   ReferencePose truth;
   truth.position = state_at(0).origin;
-  relay.take("TRUTH", encoded(to_lcm(truth)), Duration(0));  // ignored before the first state
-  for (int t = 1; t <= 10; ++t) relay.take("NAV_STATE", encoded(to_lcm(state_at(t))), Duration(0));
+  relay.take("a", "TRUTH", encoded(to_lcm(truth)), Duration(0));  // ignored before the first state
+  for (int t = 1; t <= 10; ++t)
+    relay.take("a", "NAV_STATE", encoded(to_lcm(state_at(t))), Duration(0));
   truth.stamp = state_at(10).stamp;
-  relay.take("TRUTH", encoded(to_lcm(truth)), Duration(0));
-  json trail = json::parse(relay.trail());
+  relay.take("a", "TRUTH", encoded(to_lcm(truth)), Duration(0));
+  relay.pass_on(milliseconds(1600));
+  json trail = json::parse(relay.trail("others"));
   EXPECT_EQ(trail["fused"].size(), 10u);
   ASSERT_EQ(trail["truth"].size(), 1u);
   EXPECT_NEAR(trail["truth"][0][1].get<double>(), 0.0, 0.01);
   EXPECT_EQ(trail["origin"][0].get<double>(), 0.85);
-  relay.take("NAV_STATE", encoded(to_lcm(state_at(4))), Duration(0));
-  trail = json::parse(relay.trail());
+  relay.take("a", "NAV_STATE", encoded(to_lcm(state_at(4))), Duration(0));
+  trail = json::parse(relay.trail("others"));
   ASSERT_EQ(trail["fused"].size(), 4u);
   EXPECT_EQ(trail["fused"][3], json::parse("[4.0, 4.0, -8.0, 0.0]"));
 }
@@ -159,19 +179,19 @@ TEST(Relay, KeepsTheRunsAndTheirPlayersApart) {
     maploop_lcm::run_t run{};
     run.id = id;
     run.what = std::string("replay of \"") + id + '"';
-    relay.take("RUN", encoded(run), now);
+    relay.take(id, "RUN", encoded(run), now);
   };
   const auto state = [&](const char* id, double speed, Duration now) {
     maploop_lcm::replay_control_t state{};
     state.kind = maploop_lcm::replay_control_t::STATE;
     state.run = id;
     state.speed = speed;
-    relay.take("REPLAY_CONTROL", encoded(state), now);
+    relay.take("a", "REPLAY_CONTROL", encoded(state), now);
   };
   std::uint64_t seen = 0;
   const auto runs = [&](Duration now) {
     relay.pass_on(now);
-    const auto messages = channels.newer(seen, milliseconds(0));
+    const auto messages = channels.newer(a_run, seen, milliseconds(0));
     return messages.empty() ? json() : json::parse(messages.back().json);
   };
   say("0000000a", milliseconds(0));
@@ -187,8 +207,38 @@ TEST(Relay, KeepsTheRunsAndTheirPlayersApart) {
   EXPECT_TRUE(runs(milliseconds(30)).is_null()) << "nothing has changed";
   say("0000000b", milliseconds(2000));
   all = runs(milliseconds(4000));
-  ASSERT_EQ(all.size(), 1u) << "the other is silent";
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0]["ended"], true) << "it is silent";
+  EXPECT_EQ(all[1]["ended"], false);
+  say("0000000d", milliseconds(4100));
+  all = runs(milliseconds(4200));
+  ASSERT_EQ(all.size(), 2u) << "the next run takes its place";
   EXPECT_EQ(all[0]["id"], "0000000b");
+  EXPECT_EQ(all[1]["id"], "0000000d");
+}
+
+TEST(Relay, MessagesAreOfTheRunThatTheirSenderAnnounces) {
+  LiveChannels channels;
+  Relay relay(channels);
+  for (const int second : {1, 2}) {
+    const std::string sender = "10.0.0." + std::to_string(second);
+    relay.take(sender, "NAV_STATE", encoded(to_lcm(state_at(second))), milliseconds(0));
+    maploop_lcm::run_t run{};
+    run.id = "0000000" + std::to_string(second);
+    relay.take(sender, "RUN", encoded(run), milliseconds(10));
+  }
+  relay.pass_on(milliseconds(20));
+  for (const int second : {1, 2}) {
+    const std::string run = "0000000" + std::to_string(second);
+    std::uint64_t seen = 0;
+    const auto messages = channels.newer(run, seen, milliseconds(0));
+    ASSERT_EQ(messages.size(), 2u);
+    EXPECT_EQ(json::parse(messages[1].json)["position_enu"][0], 1.0 * second);
+    const json trail = json::parse(relay.trail(run));
+    ASSERT_EQ(trail["fused"].size(), 1u);
+    EXPECT_EQ(trail["fused"][0][1], 1.0 * second);
+  }
+  EXPECT_TRUE(json::parse(relay.trail("00000003"))["fused"].empty());
 }
 
 TEST(Relay, SaysHowARunEnded) {
@@ -197,13 +247,13 @@ TEST(Relay, SaysHowARunEnded) {
   maploop_lcm::run_t run{};
   run.id = "0000000a";
   run.what = "replay of a drive";
-  relay.take("RUN", encoded(run), milliseconds(0));
+  relay.take("a", "RUN", encoded(run), milliseconds(0));
   run.ended = 1;
   run.verdict = "One line.\nAnother.\n\xff";  // a byte that is not valid UTF-8
-  relay.take("RUN", encoded(run), milliseconds(10));
+  relay.take("a", "RUN", encoded(run), milliseconds(10));
   relay.pass_on(milliseconds(10));
   std::uint64_t seen = 0;
-  for (const LiveChannels::Message& m : channels.newer(seen, milliseconds(0))) {
+  for (const LiveChannels::Message& m : channels.newer(a_run, seen, milliseconds(0))) {
     if (m.channel != "VERDICT") continue;
     EXPECT_EQ(json::parse(m.json)["what"], "replay of a drive");
     EXPECT_EQ(json::parse(m.json)["lines"], "One line.\nAnother.\n\xef\xbf\xbd");

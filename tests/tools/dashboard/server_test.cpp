@@ -33,7 +33,7 @@ class FirstRequest : public ::testing::Environment {
 const auto* const first_request = ::testing::AddGlobalTestEnvironment(new FirstRequest);
 
 Server::Handlers handlers() {
-  return {[] { return std::string("{}"); },
+  return {[](const std::string&) { return std::string("{}"); },
           [](const std::string&, const std::string&, double) { return std::string(); },
           [](const Geodetic&) { return std::string("{}"); }};
 }
@@ -135,7 +135,7 @@ TEST_F(DashboardServer, WhoStopsReadingMakesRoomForOthers) {
     stalled.push_back(std::make_unique<StalledBrowser>(server_.port()));
   }
   const auto status = [&] {
-    channels_.put("BIG", "\"" + std::string(1 << 20, 'x') + "\"");
+    channels_.put("", "BIG", "\"" + std::string(1 << 20, 'x') + "\"");
     httplib::Client client("127.0.0.1", server_.port());
     int status = -1;
     std::string refused;

@@ -2,21 +2,18 @@
 //
 //   node browser_test.mjs MAPLOOP PICTURES CHROMIUM
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
 import { assertAccessible } from "./accessible.mjs";
-import { isDrawn, launch, maploop, pictures } from "./pages.mjs";
+import { drive, killAll, openLive, patience, start, startDashboard, stop } from "./dashboard.mjs";
+import { isDrawn, launch, pictures } from "./pages.mjs";
 
-const drive = join(process.env.MAPLOOP_CACHE, "2011_09_26/2011_09_26_drive_0013_sync");
 const desktop = { width: 1280, height: 860 };
 const phone = { width: 390, height: 844 };
-const patience = { timeout: 60000 };
 
 let browser;
-const children = [];
 
 before(async () => {
   browser = await launch();
@@ -24,37 +21,13 @@ before(async () => {
 
 after(async () => {
   await browser?.close();
-  for (const child of children) child.kill("SIGKILL");
+  killAll();
 });
 
-function start(...args) {
-  const child = spawn(maploop, args, { stdio: ["ignore", "pipe", "ignore"] });
-  children.push(child);
-  return child;
-}
-
-async function firstLine(child) {
-  for await (const data of child.stdout) return String(data).split("\n")[0];
-  return "";
-}
-
-async function stop(child) {
-  const ended = new Promise((resolve) => child.once("exit", resolve));
-  child.kill("SIGINT");
-  await ended;
-}
-
-// A page that fails the test when its script does.
-async function open(viewport, url) {
-  const page = await browser.newPage({ viewport });
-  page.on("pageerror", (e) => assert.fail(`the page's script failed: ${e}`));
-  await page.goto(url);
-  return page;
-}
+const open = (viewport, url) => openLive(browser, url, viewport);
 
 test("the dashboard follows a replay, controls it, and survives restarts of either side", async () => {
-  let dashboard = start("dashboard", "--port", "0");
-  const url = (await firstLine(dashboard)).split(" ")[0];
+  let { child: dashboard, url } = await startDashboard();
   const port = new URL(url).port;
   const page = await open(desktop, url);
   await page.getByText("Nothing comes on the bus").waitFor(patience);
@@ -125,8 +98,7 @@ test("the dashboard follows a replay, controls it, and survives restarts of eith
 test("the dashboard shows the sky of a GNSS receiver and why satellites are not used", async (t) => {
   const folder = join(process.env.MAPLOOP_DATA, "gnss/riverside_drive");
   if (!existsSync(folder)) return t.skip(`SKIPPED, NOT TESTED: there is no ${folder}`);
-  const dashboard = start("dashboard", "--port", "0");
-  const url = (await firstLine(dashboard)).split(" ")[0];
+  const { child: dashboard, url } = await startDashboard();
   const replay = start("replay", folder, "--speed", "20", "--loop", "0");
   for (const [name, viewport] of Object.entries({ desktop, phone })) {
     const page = await open(viewport, url);
@@ -144,8 +116,7 @@ test("the dashboard shows the sky of a GNSS receiver and why satellites are not 
 });
 
 test("a page of another site cannot control the replay", async () => {
-  const dashboard = start("dashboard", "--port", "0");
-  const url = (await firstLine(dashboard)).split(" ")[0];
+  const { child: dashboard, url } = await startDashboard();
   const post = (headers, body) => fetch(`${url}control`, { method: "POST", headers, body });
   const command = (kind) => JSON.stringify({ run: "0123abcd", kind });
   const pause = command("pause");

@@ -5,12 +5,13 @@ import "./dashboard.css";
 
 import { Curves } from "./curves";
 import { element } from "./dom";
-import { listen, trail, type Run, type Verdict } from "./live";
+import { Connection, trail, type Verdict } from "./live";
 import { LivePlace } from "./live_place";
 import { LiveWorld } from "./live_world";
 import { themeSwitch } from "./palette";
 import { showAids, showDeadlines, showHealth, showPpp, showRoad, showState } from "./panels";
 import { PlayerBar } from "./player";
+import { RunChoice } from "./runs";
 import { Signals } from "./signals";
 import { Views } from "./views";
 
@@ -27,6 +28,7 @@ new Curves(element("section", left, "", "curves"), signals);
 const side = element("aside", main);
 side.tabIndex = 0; // so that keys can scroll it
 element("h1", side, "maploop", "unseen");
+const choiceOfRuns = element("div", side);
 const notice = element("div", side, "Connecting…", "notice");
 
 const ended = element("section", side, "", "verdict");
@@ -52,35 +54,31 @@ themeSwitch(place);
 
 let heardAt = -Infinity;
 let isConnected = false;
-let runs: Run[] = [];
 let verdict: Verdict | null = null;
+let runs: RunChoice;
 
-// How the last run ended, until another one publishes.
-function showVerdict(): void {
-  ended.hidden = verdict === null || runs.length > 0;
-  if (verdict === null || ended.hidden) return;
+// How the run that is shown has ended.
+function showEnd(): void {
+  const { shown } = runs;
+  ended.hidden = !shown?.ended;
+  if (ended.hidden) return;
   ended.replaceChildren();
-  element("h2", ended, `Ended: ${verdict.what}`);
-  for (const line of verdict.lines.trimEnd().split("\n")) element("p", ended, line);
+  element("h2", ended, `Ended: ${shown!.what}`);
+  for (const line of verdict?.lines.trimEnd().split("\n") ?? []) element("p", ended, line);
 }
-showVerdict();
 
 function showNotice(): void {
   const silent = performance.now() - heardAt > silent_after;
   notice.textContent = !isConnected
     ? "No connection to maploop dashboard: trying again"
-    : silent
-      ? "Nothing comes on the bus: is a replay or a vehicle running?"
-      : runs.length > 1
-        ? `${runs.length} runs publish on this bus, and what is shown is of all of them: ` +
-          runs.map((r) => `${r.id} (${r.what})`).join(", ") +
-          ". Give each a bus of its own: --lcm-url"
+    : runs.isMissing
+      ? `There is no run ${runs.pinned} on the bus: choose another, or wait for it`
+      : silent
+        ? "Nothing comes on the bus: is a replay or a vehicle running?"
         : "";
   document.body.classList.toggle("silent", silent || !isConnected);
 }
-setInterval(showNotice, 500);
-
-listen(
+const connection = new Connection(
   {
     NAV_STATE: (s) => {
       world.addState(s);
@@ -107,28 +105,31 @@ listen(
     HEALTH: (h) => showHealth(health, h),
     VERDICT: (v) => {
       verdict = v;
-      showVerdict();
+      showEnd();
     },
     RUNS: (r) => {
-      runs = r;
-      player.show(r);
+      runs.take(r);
+      player.show(runs.shown);
       showNotice();
-      showVerdict();
+      showEnd();
     },
   },
   (yes) => {
     isConnected = yes;
     showNotice();
-    if (yes) {
-      trail().then(
+    if (yes && runs.shown) {
+      trail(runs.shown.id).then(
         (t) => world.load(t),
         () => undefined, // the trail begins now
       );
     }
   },
   (channel, message) => {
+    if (channel === "RUNS") return;
     heardAt = performance.now();
     showNotice();
     signals.take(channel, message);
   },
 );
+runs = new RunChoice(choiceOfRuns, (run) => connection.show(run));
+setInterval(showNotice, 500);

@@ -169,6 +169,7 @@ export interface Verdict {
 export interface Run {
   id: string;
   what: string;
+  ended: boolean;
   player: Player | null;
 }
 
@@ -194,24 +195,41 @@ export interface Messages {
 type Handlers = { [Channel in keyof Messages]: (message: Messages[Channel]) => void };
 
 // Goes on by itself when the server comes back. `connected` is told of each change, `heard` of each message of any channel.
-export function listen(
-  handlers: Handlers, connected: (yes: boolean) => void, heard: (channel: string, message: unknown) => void,
-): void {
-  const source = new EventSource("/events");
-  source.onopen = () => connected(true);
-  source.onerror = () => {
-    connected(false);
-    // A server that answered with an error is not asked again by the browser itself.
-    if (source.readyState === EventSource.CLOSED) {
+export class Connection {
+  private run = ""; // until it is known: no run
+  private source!: EventSource;
+
+  constructor(
+    private readonly handlers: Handlers,
+    private readonly connected: (yes: boolean) => void,
+    private readonly heard: (channel: string, message: unknown) => void,
+  ) {
+    this.open();
+  }
+
+  show(run: string): void {
+    if (run === this.run) return;
+    this.run = run;
+    this.source.close();
+    this.open();
+  }
+
+  private open(): void {
+    const source = (this.source = new EventSource(`/events?${new URLSearchParams({ run: this.run })}`));
+    source.onopen = () => this.connected(true);
+    source.onerror = () => {
+      this.connected(false);
+      // A server that answered with an error is not asked again by the browser itself.
+      if (source.readyState !== EventSource.CLOSED) return;
       source.close();
-      setTimeout(() => listen(handlers, connected, heard), 2000);
-    }
-  };
-  source.onmessage = (event: MessageEvent<string>) => {
-    const { channel, message } = JSON.parse(event.data) as { channel: keyof Messages; message: never };
-    heard(channel, message);
-    handlers[channel]?.(message);
-  };
+      setTimeout(() => source === this.source && this.open(), 2000);
+    };
+    source.onmessage = (event: MessageEvent<string>) => {
+      const { channel, message } = JSON.parse(event.data) as { channel: keyof Messages; message: never };
+      this.heard(channel, message);
+      this.handlers[channel]?.(message);
+    };
+  }
 }
 
 // Throws an Error that says why it was refused.
@@ -230,6 +248,6 @@ export async function roads(origin: Geodetic): Promise<Line[]> {
   return answer.ok ? ((await answer.json()) as { roads: Line[] }).roads : [];
 }
 
-export async function trail(): Promise<Trail> {
-  return (await (await fetch("/trail")).json()) as Trail;
+export async function trail(run: string): Promise<Trail> {
+  return (await (await fetch(`/trail?${new URLSearchParams({ run })}`)).json()) as Trail;
 }

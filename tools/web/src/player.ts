@@ -5,8 +5,6 @@ import { command, type Player, type Run } from "./live";
 export class PlayerBar {
   private state: Player | undefined;
   private run = ""; // the id of the one that is controlled
-  private runs: Run[] = [];
-  private readonly choice: HTMLSelectElement; // where there are several
   private readonly play: HTMLButtonElement;
   private readonly slider: HTMLInputElement;
   private readonly clock: HTMLElement;
@@ -16,12 +14,6 @@ export class PlayerBar {
 
   constructor(private readonly bar: HTMLElement) {
     bar.hidden = true;
-    this.choice = element("select", bar) as HTMLSelectElement;
-    this.choice.title = this.choice.ariaLabel = "The replay that is controlled";
-    this.choice.addEventListener("change", () => {
-      this.run = this.choice.value;
-      this.show(this.runs);
-    });
     this.play = button(bar, "Pause", "Pause, or go on (space bar)", () => this.toggle());
     button(bar, "Step", "To the next image (.)", () => this.send("step-image"));
     this.slider = element("input", bar) as HTMLInputElement;
@@ -47,19 +39,10 @@ export class PlayerBar {
     document.addEventListener("keydown", (e) => this.pressed(e));
   }
 
-  show(runs: Run[]): void {
-    this.runs = runs.filter((r) => r.player !== null);
-    const ids = this.runs.map((r) => r.id);
-    if (!ids.includes(this.run)) this.run = ids[0] ?? "";
-    this.choice.hidden = ids.length < 2;
-    if ([...this.choice.options].map((o) => o.value).join() !== ids.join()) {
-      this.choice.replaceChildren();
-      for (const r of this.runs) (element("option", this.choice, `${r.id} ${r.what}`) as HTMLOptionElement).value = r.id;
-    }
-    this.choice.value = this.run;
-    const state = this.runs.find((r) => r.id === this.run)?.player;
-    this.bar.hidden = !state;
-    if (state) this.showState(state);
+  show(run: Run | undefined): void {
+    this.run = run?.id ?? "";
+    this.bar.hidden = !run?.player;
+    if (run?.player) this.showState(run.player);
   }
 
   private showState(state: Player): void {
