@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tools/command/bus_listener.h"
@@ -13,6 +14,7 @@
 #include "tools/evaluate/text_file.h"
 #include "tools/profile/comparison.h"
 #include "tools/profile/profile.h"
+#include "tools/profile/trace_ticks.h"
 
 namespace maploop::tools {
 namespace {
@@ -24,7 +26,7 @@ struct ProfileOptions {
   bool live = false;
   std::string lcm_url;
   double seconds = 0.0;  // 0: until interrupted
-  path json, html;
+  path json, html, trace;
 };
 
 void listen(const std::string& url, const ProfileOptions& options,
@@ -57,6 +59,8 @@ int run(const ProfileOptions& options) {
     write(options, profile::to_text(both), profile::to_json(both), profile::to_html(both));
     return 0;
   }
+  const nlohmann::json ticks =
+      options.trace.empty() ? nlohmann::json() : profile::read_trace_ticks(options.trace);
   profile::Profile result;
   std::string name = options.log.filename().string();
   if (options.live) {
@@ -68,7 +72,7 @@ int run(const ProfileOptions& options) {
     result = profile::profile_of_log(options.log);
   }
   write(options, profile::to_text(result), profile::to_json(result),
-        profile::to_html(result, name));
+        profile::to_html(result, name, ticks));
   return 0;
 }
 
@@ -89,7 +93,14 @@ void add_profile(CLI::App& app, Command& command) {
                   "or before a change: its figures are shown beside those of LOG, with ratios")
       ->needs(log);
   add_output(sub, "--json", options.json, "Write the same to this file as JSON");
-  add_output(sub, "--html", options.html, "Write a page with pictures to this file");
+  auto* html = add_output(sub, "--html", options.html, "Write a page with pictures to this file");
+  sub->add_option("--trace", options.trace,
+                  "Trace of the same run (replay --trace): the page shows what each thread did in "
+                  "any of its ticks")
+      ->check(existing_file())
+      ->needs(log)
+      ->needs(html)
+      ->excludes("--compare");
 }
 
 }  // namespace maploop::tools

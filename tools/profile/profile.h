@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -94,7 +95,8 @@ Profile profile_of_log(const std::filesystem::path& log);
 // Return a table for a terminal, and the same as JSON and as one self-contained HTML page.
 std::string to_text(const Profile& profile);
 std::string to_json(const Profile& profile);
-std::string to_html(const Profile& profile, const std::string& source);
+// `ticks` of read_trace_ticks() are shown one by one; null: there is no trace.
+std::string to_html(const Profile& profile, const std::string& source, const nlohmann::json& ticks);
 
 // Add parts of this page to another one: the table of threads and paths, the worst misses and the
 // distributions; and the processor time.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "runtime/core/histogram.h"
 #include "tools/profile/profile.h"
@@ -174,6 +175,22 @@ std::string worst_misses(const Profile& p) {
          miss_bars(p.worst, p.stamp);
 }
 
+void add_ticks(web::Page& page, const Profile& p, const nlohmann::json& ticks) {
+  page.add(web::heading("Any tick"));
+  if (ticks.is_null()) {
+    page.add(
+        "<p class=\"empty\">A trace of the run shows here what each thread did in any of its "
+        "ticks: record it with 'maploop replay DRIVE --record run.lcmlog --trace run.json', and "
+        "add '--trace run.json' to 'maploop profile'.</p>");
+    return;
+  }
+  page.add(web::paragraph(
+      std::string("From the release of a sample to the state that contains it. The guilty part is "
+                  "the one that took longest beyond its median.") +
+      (p.virtual_time() ? std::string(" ") + no_deadlines : "")));
+  page.add_place("ticks", ticks);
+}
+
 }  // namespace
 
 void add_latencies(web::Page& page, const Profile& p) {
@@ -195,13 +212,15 @@ void add_processor_time(web::Page& page, const Profile& p) {
            web::table_of_html({"thread", "s", "% of one processor", ""}, rows));
 }
 
-std::string to_html(const Profile& p, const std::string& source) {
+std::string to_html(const Profile& p, const std::string& source, const nlohmann::json& ticks) {
   web::Page page("Profile of " + source);
   page.add(web::paragraph(fmt::format(
       "The run up to {} UTC (of the data), {:.1f} s on this machine, {:.0f} % of one processor.",
       format_time(p.stamp).substr(0, 23), p.health.elapsed,
       100.0 * p.health.cpu / std::max(p.health.elapsed, 1e-9))));
+  page.add_contents();
   add_latencies(page, p);
+  add_ticks(page, p, ticks);
   add_processor_time(page, p);
   return page.text();
 }

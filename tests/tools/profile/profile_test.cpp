@@ -1,10 +1,13 @@
 // Tests `maploop profile`, on messages made by hand and on a replay of the recorded drive.
 #include "tools/profile/profile.h"
 
+#include <fstream>
+
 #include "msgs/lcm/conversions.h"
 #include "runtime/core/histogram.h"
 #include "tests/support/command_test.h"
 #include "tools/profile/comparison.h"
+#include "tools/profile/trace_ticks.h"
 
 namespace maploop::profile {
 namespace {
@@ -117,7 +120,7 @@ TEST(Profile, DamagedAndForeignMessagesAreNamed) {
 }
 
 TEST(Profile, NamesCannotBreakThePage) {
-  const std::string html = to_html(profile_of(stalled_thread(), {}), "a & b.lcmlog");
+  const std::string html = to_html(profile_of(stalled_thread(), {}), "a & b.lcmlog", {});
   EXPECT_EQ(html.find("fu<s>ion"), std::string::npos);
   EXPECT_NE(html.find("fu&lt;s&gt;ion"), std::string::npos);
   EXPECT_NE(html.find("a &amp; b.lcmlog"), std::string::npos);
@@ -129,7 +132,7 @@ TEST(Profile, OnVirtualTimeNoDeadlineIsJudged) {
   d.threads[0].worst.clear();
   const Profile lockstep = profile_of(d, {});
   EXPECT_TRUE(lockstep.virtual_time());
-  for (const std::string& said : {to_text(lockstep), to_html(lockstep, "a")}) {
+  for (const std::string& said : {to_text(lockstep), to_html(lockstep, "a", {})}) {
     EXPECT_NE(said.find("deadlines have no meaning"), std::string::npos) << said;
     EXPECT_EQ(said.find("No deadline was missed"), std::string::npos) << said;
   }
@@ -137,6 +140,33 @@ TEST(Profile, OnVirtualTimeNoDeadlineIsJudged) {
   const Profile paced = profile_of(d, {});
   EXPECT_FALSE(paced.virtual_time());
   EXPECT_NE(to_text(paced).find("No deadline was missed"), std::string::npos);
+}
+
+// A sample passes two threads; the second one is late for it, and works for another one.
+TEST(TraceTicks, ASampleHasTheSpansThatItsMarksAreIn) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "trace.json";
+  std::ofstream(file) << R"({"traceEvents":[
+    {"name":"thread_name","ph":"M","tid":1,"args":{"name":"camera"}},
+    {"name":"release","ph":"X","tid":1,"ts":10.0,"dur":5.0},
+    {"name":"camera","ph":"s","tid":1,"ts":11.0,"id":"0x1","args":{"sequence":7}},
+    {"name":"thread_name","ph":"M","tid":2,"args":{"name":"stereo"}},
+    {"name":"tick","ph":"X","tid":2,"ts":20.0,"dur":50.0},
+    {"name":"part","ph":"X","tid":2,"ts":30.0,"dur":10.0},
+    {"name":"camera","ph":"f","tid":2,"ts":31.0,"id":"0x1","args":{"sequence":7}},
+    {"name":"missed deadline","ph":"i","tid":2,"ts":71.0},
+    {"name":"tick","ph":"X","tid":2,"ts":80.0,"dur":1.0}],"otherData":{}})";
+  const json all = read_trace_ticks(file);
+  EXPECT_EQ(all["flows"],
+            json::parse(R"([{"source":"camera","sequence":7,"spans":[[0,0],[1,1]]}])"));
+  EXPECT_EQ(all["threads"][1]["start"], json::parse("[200, 100, 500]"));
+  EXPECT_EQ(all["threads"][1]["missed"], json::parse("[0]")) << "the tick, not what is in it";
+  EXPECT_TRUE(all["until"].is_null());
+  const json first = read_trace_ticks(file, 2);
+  EXPECT_EQ(first["until"], 300);
+  EXPECT_TRUE(first["flows"].empty()) << "it is not there in full";
+  std::ofstream(file) << "{}";
+  EXPECT_THROW(read_trace_ticks(file), std::runtime_error);
 }
 
 class ProfileCommand : public CommandTest {
@@ -149,11 +179,12 @@ class ProfileCommand : public CommandTest {
 
 TEST_F(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
   MAPLOOP_REQUIRE_DRIVE();
-  const json said =
-      replay(drive_0013().string(), {"--end", "5", "--fault", "slow@fusion:2:0.3,by=0.02",
-                                     "--record", file("run.lcmlog")})["deadlines"];
-  const ProcessResult result = profile_command(
-      {file("run.lcmlog"), "--json", file("profile.json"), "--html", file("profile.html")});
+  const json said = replay(drive_0013().string(),
+                           {"--end", "5", "--fault", "slow@fusion:2:0.3,by=0.02", "--record",
+                            file("run.lcmlog"), "--trace", file("trace.json")})["deadlines"];
+  const ProcessResult result =
+      profile_command({file("run.lcmlog"), "--json", file("profile.json"), "--html",
+                       file("profile.html"), "--trace", file("trace.json")});
   ASSERT_EQ(result.status, 0) << result.error;
   const json profile = read_json(file("profile.json"));
   for (const char* kind : {"threads", "paths"}) {
@@ -190,6 +221,7 @@ TEST_F(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
   }
   EXPECT_GE(pictures, 11u) << "distributions";
   EXPECT_NE(html.find("class=\"bar\""), std::string::npos) << "the misses";
+  EXPECT_NE(html.find("ticks-data"), std::string::npos) << "the trace";
 
   const ProcessResult both = profile_command(
       {file("run.lcmlog"), "--compare", file("run.lcmlog"), "--html", file("both.html")});

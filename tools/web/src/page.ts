@@ -17,6 +17,8 @@ import { themeSwitch, tokensOf } from "./palette";
 import type { Plot } from "./plot";
 import { Readout } from "./readout";
 import { SatelliteViews } from "./satellites";
+import type { Trace } from "./tick_data";
+import { showTicks } from "./ticks";
 import { TimedMap } from "./timed_map";
 import { clockFrom, seconds, Timeline, type TimelineEvent } from "./timeline";
 
@@ -72,6 +74,7 @@ function wholeTime(plots: Plot[]): [number, number] | undefined {
 async function drawPage(): Promise<void> {
   themeSwitch(document.querySelector("main")!);
   show<Data>("comparison", showComparison);
+  show<Trace>("ticks", showTicks);
   const plots = dataOf<Plot[]>("plots") ?? [];
   const whole = wholeTime(plots);
   let timeline: Timeline | undefined;
