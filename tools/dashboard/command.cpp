@@ -71,6 +71,16 @@ std::string send_command(BusListener& bus, const std::string& run, const std::st
   return bus.publish(channel, command) ? "" : "LCM did not take the command";
 }
 
+void say_losses(std::uint64_t by_viewers, std::uint64_t not_understood) {
+  if (by_viewers > 0) {
+    std::cerr << "maploop: viewers of Foxglove were too slow for " << by_viewers << " messages\n";
+  }
+  if (not_understood > 0) {
+    std::cerr << "maploop: " << not_understood
+              << " messages were of no type that this version knows, or damaged\n";
+  }
+}
+
 int run(const DashboardOptions& options) {
   if (web::dashboard_script().empty()) {
     throw std::runtime_error(
@@ -83,17 +93,18 @@ int run(const DashboardOptions& options) {
   dashboard::Relay relay(channels);
   std::optional<dashboard::FoxgloveBridge> foxglove;
   const std::string url = vehicle::bus_url(options.lcm_url);
+  const bool knows_senders = dashboard::SenderListener::understands(url);
+  const bool hears_all = !knows_senders || options.foxglove;
+  BusListener bus(url, hears_all ? ".*" : "none", [&](auto channel, auto data) {
+    if (!knows_senders) relay.take("", channel, data, now());
+    if (foxglove) foxglove->take({.time_us = wall_us(), .channel = channel, .data = data});
+  });
   std::optional<dashboard::SenderListener> senders;
-  if (dashboard::SenderListener::understands(url)) {
+  if (knows_senders) {
     senders.emplace(url, [&](auto sender, auto channel, auto data) {
       relay.take(sender, channel, data, now());
     });
   }
-  const bool listens = !senders || options.foxglove;
-  BusListener bus(url, listens ? ".*" : "none", [&](auto channel, auto data) {
-    if (!senders) relay.take("", channel, data, now());
-    if (foxglove) foxglove->take({.time_us = wall_us(), .channel = channel, .data = data});
-  });
   const auto control = [&](const std::string& run, const std::string& kind, double value) {
     return send_command(bus, run, kind, value);
   };
@@ -122,14 +133,7 @@ int run(const DashboardOptions& options) {
     relay.pass_on(now());
     next = Clock::now() + pass_on_every;
   }
-  if (viewers && viewers->lost() > 0) {
-    std::cerr << "maploop: viewers of Foxglove were too slow for " << viewers->lost()
-              << " messages\n";
-  }
-  if (relay.not_understood() > 0) {
-    std::cerr << "maploop: " << relay.not_understood()
-              << " messages were of no type that this version knows, or damaged\n";
-  }
+  say_losses(viewers ? viewers->lost() : 0, relay.not_understood());
   return 0;
 }
 

@@ -30,8 +30,8 @@ side.tabIndex = 0; // so that keys can scroll it
 element("h1", side, "maploop", "unseen");
 const choiceOfRuns = element("div", side);
 const notice = element("div", side, "Connecting…", "notice");
-
 const ended = element("section", side, "", "verdict");
+ended.hidden = true;
 
 function panel(title: string): HTMLElement {
   const section = element("section", side);
@@ -78,6 +78,7 @@ function showNotice(): void {
         : "";
   document.body.classList.toggle("silent", silent || !isConnected);
 }
+
 const connection = new Connection(
   {
     NAV_STATE: (s) => {

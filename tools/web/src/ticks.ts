@@ -11,6 +11,7 @@ export function showTicks(place: HTMLElement, trace: Trace): void {
   place.replaceChildren();
   if (ticks.kinds.size > 0) new TickView(place, ticks);
   else element("p", place, "The trace has no sample whose state was published: let the run last longer.", "empty");
+  if (trace.until) element("p", place, `The page has the first ${(trace.until * 1e-7).toFixed(0)} s of the trace.`);
 }
 
 class TickView {
