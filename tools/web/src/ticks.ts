@@ -5,6 +5,7 @@ import { length, Ticks, type Part, type Span, type Tick, type Trace } from "./ti
 
 const around = 0.04; // share of the time that is shown before and after
 const named_from = 9; // % of the width, so that a name fits
+const row_height = 17; // px
 
 export function showTicks(place: HTMLElement, trace: Trace): void {
   const ticks = new Ticks(trace);
@@ -99,14 +100,14 @@ class TickView {
     this.said.textContent = `${this.kind} ${tick.index} of ${this.all.length}: ${length(tick).toFixed(2)} ms${missed}. ` +
       `Guilty: ${guilty.name}, ${longer.toFixed(2)} ms longer than its median.`;
     this.drawRows(guilty);
-    table(this.parts, ["part", "ms", "median, ms", "longer by, ms", ""], tick.parts.map((part) => this.partRow(part, guilty)));
+    table(this.parts, ["part", "ms", "median, ms", "longer by, ms"], tick.parts.map((part) => this.partRow(part, guilty)));
   }
 
   private partRow(part: Part, guilty: Part): (string | HTMLElement)[] {
     const median = this.ticks.median(this.kind, part);
-    const mark = document.createElement("span");
-    if (part === guilty) [mark.textContent, mark.className] = ["guilty", "error"];
-    return [part.name, length(part).toFixed(3), median.toFixed(3), (length(part) - median).toFixed(3), mark];
+    const name = document.createElement("span");
+    [name.textContent, name.className] = part === guilty ? [`${part.name} (guilty)`, "error"] : [part.name, ""];
+    return [name, length(part).toFixed(3), median.toFixed(3), (length(part) - median).toFixed(3)];
   }
 
   private drawRows(guilty: Part): void {
@@ -121,12 +122,12 @@ class TickView {
       const row = element("div", rows, "", "row");
       element("span", row, name);
       const track = element("div", row, "", "flame");
-      track.style.setProperty("--rows", `${1 + Math.max(...spans.map(({ depth }) => depth))}`);
+      track.style.height = `${row_height * (1 + Math.max(...spans.map(({ depth }) => depth))) + 1}px`;
       const place = (bar: HTMLElement, part: { from: number; to: number }, depth: number) => {
         const [left, right] = [part.from, part.to].map((t) => (100 * (Math.min(Math.max(t, from), to) - from)) / (to - from));
         bar.style.left = `${left}%`;
         bar.style.width = `${right! - left!}%`;
-        bar.style.setProperty("--depth", `${depth}`);
+        bar.style.top = `${row_height * depth + 1}px`;
         return right! - left!;
       };
       for (const part of tick.parts.filter((p) => !p.span && p.thread === thread))
