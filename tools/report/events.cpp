@@ -41,6 +41,27 @@ void add_faults(const Scene& scene, double last, Events& all) {
   }
 }
 
+void add_largest_error(const Scene& scene, Events& all) {
+  if (!scene.truth) return;
+  double largest = 0.0, sigma = 0.0;
+  Time when{};
+  for (const NavState& s : scene.states()) {
+    const auto pose = scene.truth->pose(s.stamp);
+    if (!pose) continue;
+    const double off = (s.position_enu - pose->translation()).head<2>().norm();
+    if (!(off > largest)) continue;
+    largest = off;
+    sigma = std::sqrt(s.covariance(0, 0) + s.covariance(1, 1));
+    when = s.stamp;
+  }
+  if (largest == 0.0) return;
+  const double now = scene.second(when);
+  all.push_back({now, now, Level::note,
+                 fmt::format("the largest horizontal error, {:.2f} m; 3 sigma {:.2f} m", largest,
+                             sigmas * sigma),
+                 error_heading});
+}
+
 void add_restarts(const Scene& scene, Events& all) {
   const auto& states = scene.states();
   for (std::size_t i = 1; i < states.size(); ++i) {
@@ -145,6 +166,7 @@ std::vector<Event> events(const Scene& scene, const profile::Profile& times) {
   Events all;
   const auto& states = scene.states();
   add_outages(scene, all);
+  add_largest_error(scene, all);
   add_faults(scene, states.empty() ? 0.0 : scene.second(states.back().stamp), all);
   add_restarts(scene, all);
   add_states_without_aid(scene, all);

@@ -113,12 +113,12 @@ void write_report(const std::filesystem::path& file, const ReplayReport& r) {
   web::Page page("Replay of " + result.drive);
   page.add(opening(result)).add_contents().add_timeline(events(scene, times));
   page.add_overview(trajectory_map(scene)).add(summary(result));
+  page.add(heading("Health") + notes(health.degraded));
   page.add(heading(error_heading) + navigation(result.navigation)).add(state_plots(scene));
   page.add(heading("Events")).add_events().add(accuracy(result));
   add_roads(page, scene);
   add_ppp(page, scene);
   add_calibration(page, scene);
-  page.add(heading("Health") + notes(health.degraded));
   page.add(heading(loss_heading) + losses(result));
   page.add(heading(latency_heading));
   profile::add_latencies(page, times);

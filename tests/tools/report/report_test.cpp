@@ -148,6 +148,23 @@ TEST(Report, WhatWasOutOfTheOrdinaryIsOnTheTimeline) {
   EXPECT_TRUE(has(page, R"("text":"no position by PPP: ","to":0.0)"));
 }
 
+TEST(Report, TheLargestErrorIsAnEvent) {
+  tools::RunPass pass;
+  for (int second = 0; second < 5; ++second) {
+    NavState s;
+    s.stamp = at(second);
+    s.status = NavStatus::aided;
+    s.origin = origin;
+    s.position_enu = place(second) + Eigen::Vector3d(0.0, second == 3 ? -2.0 : 1.0, 9.0);
+    s.covariance(0, 0) = 0.75;
+    s.covariance(1, 1) = 0.25;
+    pass.track.add(s);
+  }
+  const std::string page = page_of(tools::ReplayResult{}, pass, straight_drive(10.0));
+  EXPECT_TRUE(has(page, R"("from":3.0,"level":"note","section":"Absolute-error",)"
+                        R"("text":"the largest horizontal error, 2.00 m; 3 sigma 3.00 m")"));
+}
+
 TEST(Report, ARunWithoutAnythingHasAPageToo) {
   EXPECT_TRUE(has(page_of({}, {}, {}, {}), "Way of the vehicle"));
 }

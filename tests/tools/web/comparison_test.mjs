@@ -74,6 +74,15 @@ test("the cursor of one plot moves those of all, the values and the place on the
   await page.close();
 });
 
+test("the best run is named first, and the largest error of each leads to its place", async () => {
+  const page = await open(browser, file, 1024);
+  const ranking = page.locator("ol li");
+  assert.match(await ranking.first().innerText(), /^gnss_and_stereo.tum: median 3-D error 0\.\d+ m, 95 % within/);
+  await ranking.nth(1).getByRole("button").click();
+  assert.ok((await time(page)) > 50, "it drifts to the end");
+  await page.close();
+});
+
 test("a part of the drive that is dragged is shown by all plots, and a button shows all again", async () => {
   const page = await open(browser, file, 1024);
   const whole = await stretch(page);

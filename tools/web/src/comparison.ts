@@ -2,7 +2,7 @@
 import type uPlot from "uplot";
 
 import { drawChart } from "./chart";
-import { components, type Component, type Data } from "./comparison_data";
+import { components, type Component, type Data, type Run } from "./comparison_data";
 import { bars, boxes } from "./distributions";
 import { button, element, figureIn, region, table } from "./dom";
 import { linkedChart, type Axis } from "./linked_charts";
@@ -34,6 +34,7 @@ class ComparisonPage {
     this.addLegend(element("div", controls, "", "runs"));
     this.timeline.addControls(controls, has_stamps ? "Time" : "Pose");
     this.readout = region(controls, "Errors at the cursor", "wide readout");
+    this.addRanking(element("ol", place));
     const options = element("div", place, "", "options");
     this.plane = new Plane(place, data, this.tokens, this.timeline);
     this.addOptions(options);
@@ -58,6 +59,17 @@ class ComparisonPage {
       toggle.style.setProperty("--key", `var(--${this.tokens[i]})`);
       toggle.setAttribute("aria-pressed", "true");
     });
+  }
+
+  // The best run first.
+  private addRanking(parent: HTMLElement): void {
+    const of = ({ quantiles }: Run, percent: number) => `${quantiles[2 * percent]!.toFixed(3)} m`;
+    for (const run of [...this.data.runs].sort((a, b) => a.quantiles[100]! - b.quantiles[100]!)) {
+      const item = element("li", parent, `${run.name}: median 3-D error ${of(run, 50)}, 95 % within ${of(run, 95)}, `);
+      const largest = run.absolute.indexOf(run.absolute.reduce((most, v) => Math.max(most, v)));
+      const at = run.time[largest]!;
+      button(item, `largest ${of(run, 100)}`, "Move the cursor there", () => this.timeline.goTo({ from: at, to: at }));
+    }
   }
 
   private applyVisible(): void {
