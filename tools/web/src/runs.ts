@@ -15,6 +15,7 @@ export class RunChoice {
     this.label = element("label", parent, "Run ", "run");
     this.label.hidden = true;
     this.select = element("select", this.label) as HTMLSelectElement;
+    this.select.setAttribute("aria-label", "Run");
     this.select.addEventListener("change", () => {
       location.href = `?${new URLSearchParams({ run: this.select.value })}${location.hash}`;
     });
