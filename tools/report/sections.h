@@ -48,9 +48,9 @@ struct ErrorSeries {
 // error it plots only the standard deviations.
 web::Plot error_plot(const ErrorSeries& series);
 
-// Returns what was out of the ordinary, in the order of time: outages, the largest error, faults, states that are not
-// aided, jumps of the position, refused odometry, roads that were left, epochs without a position
-// by PPP, and the worst missed deadlines.
+// Returns what was out of the ordinary, in the order of time: outages, the largest error, faults,
+// states that are not aided, jumps of the position, refused odometry, roads that were left, epochs
+// without a position by PPP, and the worst missed deadlines.
 std::vector<web::Event> events(const Scene& scene, const profile::Profile& times);
 
 // Plots the view from above, in the fused state's own frame, over the roads of the replay's map:

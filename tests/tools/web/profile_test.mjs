@@ -3,7 +3,7 @@
 //   node profile_test.mjs MAPLOOP PICTURES CHROMIUM
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { readdirSync } from "node:fs";
+import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
@@ -23,7 +23,7 @@ let browser;
 before(async () => {
   browser = await launch();
   const town = join(pictures, "town");
-  run("simulate", "--out", town, "--seconds", "12", "--sensors", "imu,gnss");
+  if (!existsSync(town)) run("simulate", "--out", town, "--seconds", "12", "--sensors", "imu,gnss");
   const drive = join(town, readdirSync(town).find((name) => name.endsWith("_extract")));
   const [log, trace] = [join(pictures, "run.lcmlog"), join(pictures, "run.json")];
   const replay = (...more) => run("replay", drive, "--no-lcm", "--config", join(town, "vehicle.toml"), "--record", log, "--trace", trace, ...more);

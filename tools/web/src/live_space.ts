@@ -144,11 +144,12 @@ export class LiveSpace {
   }
 
   // The candidate links, the likelier the stronger, and the point on the road joined to where the vehicle was thought to be.
-  // A candidate is the road of its name at its distance.
+  // A candidate, "Street 7 (way 12)" or "way 12", is the road of its name at its distance.
   private matched({ candidates, vehicle_enu, matched_enu }: MapMatch, ground: number): Lines[] {
     const links = candidates.slice(0, 6).flatMap(({ road, distance: away, probability }): Lines[] => {
       const off = (line: Line) => Math.abs(distance(line, vehicle_enu) - (away ?? 0));
-      const [best] = this.near.lines.filter((line) => line.name === road).sort((a, b) => off(a) - off(b));
+      const name = road.replace(/ ?\(?way \d+\)?$/, "");
+      const [best] = this.near.lines.filter((line) => line.name === name).sort((a, b) => off(a) - off(b));
       const opacity = 0.15 + 0.6 * (probability || 0);
       return best ? [{ points: flat(best, ground), look: "chain", token: "matched", metres: 2.5, px: 1, opacity, isBeneath: true }] : [];
     });
