@@ -98,9 +98,10 @@ std::string to_json(const Profile& profile);
 // `ticks` of read_trace_ticks() are shown one by one; null: there is no trace.
 std::string to_html(const Profile& profile, const std::string& source, const nlohmann::json& ticks);
 
-// Add parts of this page to another one: the table of threads and paths, the worst misses and the
+// Add parts of this page to another one: the table of threads and paths with the worst misses; the
 // distributions; and the processor time.
 void add_latencies(web::Page& page, const Profile& profile);
+void add_distributions(web::Page& page, const Profile& profile);
 void add_processor_time(web::Page& page, const Profile& profile);
 
 }  // namespace maploop::profile

@@ -194,7 +194,11 @@ void add_ticks(web::Page& page, const Profile& p, const nlohmann::json& ticks) {
 }  // namespace
 
 void add_latencies(web::Page& page, const Profile& p) {
-  page.add(latency_table(p) + worst_misses(p) + web::heading("Distributions") +
+  page.add(latency_table(p) + worst_misses(p));
+}
+
+void add_distributions(web::Page& page, const Profile& p) {
+  page.add(web::heading("Distributions") +
            web::paragraph("The share of all that took longer than a time: lower and further left "
                           "is better. Corrected: with the waits that stalls of the data clock "
                           "hid."))
@@ -221,6 +225,7 @@ std::string to_html(const Profile& p, const std::string& source, const nlohmann:
   page.add_contents();
   add_latencies(page, p);
   add_ticks(page, p, ticks);
+  add_distributions(page, p);
   add_processor_time(page, p);
   return page.text();
 }

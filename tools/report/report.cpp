@@ -122,6 +122,7 @@ void write_report(const std::filesystem::path& file, const ReplayReport& r) {
   page.add(heading(loss_heading) + losses(result));
   page.add(heading(latency_heading));
   profile::add_latencies(page, times);
+  profile::add_distributions(page, times);
   profile::add_processor_time(page, times);
   page.add(heading("How it was run") + paragraph("maploop " MAPLOOP_VERSION) + channels(result) +
            settings(health.settings) +
