@@ -65,7 +65,7 @@ test("mouse and keys turn, move and zoom it; the button goes to the map and back
   const differs = async (what, act) => {
     const before = await canvas.screenshot();
     await act();
-    await page.waitForTimeout(600);
+    await page.waitForTimeout(1300); // until all points are drawn again
     assert.ok(!before.equals(await canvas.screenshot()), what);
   };
   const box = await canvas.boundingBox();

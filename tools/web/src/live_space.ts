@@ -10,7 +10,7 @@ const above_ground = 0.9; // m, of the vehicle's origin
 const box: [Place, Place] = [[-2.2, -0.9, -0.7], [2.2, 0.9, 0.8]]; // m, of the vehicle
 const roads_within = 500; // m
 const moves_within = 40; // ms from picture to picture, else clouds are thinned ...
-const rests_after = 300; // ms ... until nothing has moved for this long
+const rests_after = 1000; // ms ... until nothing has moved for this long
 const most_thinned = 32;
 
 // All points of a line at a height.
