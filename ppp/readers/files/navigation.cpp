@@ -115,9 +115,10 @@ class NavigationReader {
     Satellite satellite{default_system_, 0};
     if (three_) {
       const auto found = parse_satellite(lines_.column(0, 3));
-      if (!found)
+      if (!found) {
         lines_.fail("'" + std::string(lines_.column(0, 3)) +
                     "' is not a satellite; expected e.g. G05");
+      }
       satellite = *found;
     } else {
       const int number = lines_.integer(0, 2, "satellite number");

@@ -38,9 +38,10 @@ class OrbexReader {
   void check_description() const {
     auto rest = lines_.line();
     const auto key = take_word(rest), value = trimmed(rest);
-    if (key == "FRAME_TYPE" && value != "ECEF")
+    if (key == "FRAME_TYPE" && value != "ECEF") {
       lines_.fail("attitudes relative to the frame " + std::string(value) +
                   " are not supported, only those relative to ECEF");
+    }
     if (key == "TIME_SYSTEM" && value != "GPS")
       lines_.fail("the time system " + std::string(value) + " is not supported, only GPS");
   }
