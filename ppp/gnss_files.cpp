@@ -61,19 +61,7 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
 }
 
 void append(GnssFiles& files, GnssFiles others) {
-  const auto move = [&](auto GnssFiles::*list) {
-    std::ranges::move(others.*list, std::back_inserter(files.*list));
-  };
-  move(&GnssFiles::observations);
-  move(&GnssFiles::navigation);
-  move(&GnssFiles::orbits);
-  move(&GnssFiles::clocks);
-  move(&GnssFiles::antennas);
-  move(&GnssFiles::biases);
-  move(&GnssFiles::earth_rotation);
-  move(&GnssFiles::ocean_loading);
-  move(&GnssFiles::ionosphere_maps);
-  move(&GnssFiles::attitudes);
+  visit_lists([&](auto list) { std::ranges::move(others.*list, std::back_inserter(files.*list)); });
 }
 
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {

@@ -34,6 +34,21 @@ struct GnssFiles {
   std::vector<AttitudeFile> attitudes;             // ORBEX
 };
 
+// Calls `visit` with a pointer to each list of GnssFiles, in the order above.
+template <class Visit>
+void visit_lists(Visit visit) {
+  visit(&GnssFiles::observations);
+  visit(&GnssFiles::navigation);
+  visit(&GnssFiles::orbits);
+  visit(&GnssFiles::clocks);
+  visit(&GnssFiles::antennas);
+  visit(&GnssFiles::biases);
+  visit(&GnssFiles::earth_rotation);
+  visit(&GnssFiles::ocean_loading);
+  visit(&GnssFiles::ionosphere_maps);
+  visit(&GnssFiles::attitudes);
+}
+
 // Reads one file, adds it to the list of its kind and returns that kind. Throws ReadError if it
 // cannot be read, is of no known kind, or is damaged.
 FileKind read_into(const std::filesystem::path& path, GnssFiles& files);

@@ -22,7 +22,7 @@ struct Row : LinearRow {
   std::size_t tracked = 0;  // index into the epoch's tracked satellites
   Combination combination = Combination::range;
   double sigma = 0.0;
-  double most_sigmas = 3.0;  // beyond so many of them its residual is an outlier
+  double most_sigmas = 0.0;  // beyond so many of them its residual is an outlier
   double delay = 0.0;        // m, by which y has been shortened, because a reflection is expected
   bool active = true;
   bool new_ambiguity = false;  // on a phase: its ambiguity is new, so it carries no information yet

@@ -1,5 +1,6 @@
 #include "ppp/filter/parameter_table.h"
 
+#include "ppp/filter/data_choices.h"
 #include "ppp/satellite.h"
 
 namespace maploop::ppp {
@@ -11,76 +12,6 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
   constexpr double any_sigma = 1e4;  // m
   constexpr double any_gate = 1e9;   // a larger one lets everything through
   constexpr double smallest = 1e-6;  // of what is divided by
-  constexpr DataChoice code_sigma_choice{"ESBC station and Kamakura car",
-                                         "among a handful of values with the scores in sight",
-                                         "PPP of ESBC and of Kamakura"};
-  constexpr DataChoice phase_sigma_choice{"ESBC station and Kamakura car", "as `code_sigma`",
-                                          "PPP of ESBC and of Kamakura"};
-  constexpr DataChoice code_correlation_choice{
-      "ESBC station and Kamakura car", "from post-fit residuals of the days that are scored",
-      "PPP of ESBC and of Kamakura"};
-  constexpr DataChoice code_correlation_distance_choice{"Kamakura car", "as `code_correlation`",
-                                                        "PPP of Kamakura"};
-  constexpr DataChoice glonass_code_correlation_choice{"ESBC station", "as `code_correlation`",
-                                                       "PPP of ESBC with GLONASS"};
-  constexpr DataChoice carried_choice{"simulated canyons, seeds 1, 2, 4 and 5",
-                                      "among four sets by the errors with slipping wheels",
-                                      "PPP carried by motion, of these seeds"};
-  constexpr DataChoice outlier_sigmas_choice{"simulated canyons, seeds 1 to 10",
-                                             "among 2.5 to 6 by the scores",
-                                             "PPP between houses, seeds 1 to 10"};
-  constexpr DataChoice full_cn0_choice{"receivers of ESBC, Kamakura and Riverside",
-                                       "the weakest 5 % of signals under open sky",
-                                       "PPP of ESBC, Kamakura and Riverside"};
-  constexpr DataChoice full_cn0_drop_choice{"receivers of ESBC, Kamakura and Riverside",
-                                            "as `full_cn0`", "as `full_cn0`"};
-  constexpr DataChoice full_cn0_margin_choice{
-      "simulated canyons, seeds 1 to 20, and the three receivers",
-      "among 3 to 6 dB with the scores in sight",
-      "PPP between houses, seeds 1 to 20; PPP of the three receivers"};
-  constexpr DataChoice full_cn0_first_step_choice{
-      "simulated canyons, seeds 1 to 6, and towns, seeds 1 to 3",
-      "among 0, 2, 4 and 8 dB by the errors", "PPP of these seeds"};
-  constexpr DataChoice ambiguity_walk_choice{
-      "ESBC station", "from changes of post-fit phase residuals over 10 minutes", "PPP of ESBC"};
-  constexpr DataChoice wide_lane_sigma_choice{
-      "ESBC station, 00:00 to 12:00 and as a vehicle",
-      "among 0, 0.05, 0.1 and 0.15 cycles by the time to 0.1 m and the fixed epochs",
-      "PPP of ESBC before 12:00"};
-  constexpr DataChoice integer_success_choice{
-      "ESBC station, 00:00 to 12:00",
-      "among 0.9 to 0.999 by the time to 0.1 m, none with wrong integers",
-      "PPP of ESBC before 12:00"};
-  constexpr DataChoice integer_margin_choice{
-      "ESBC station, 00:00 to 12:00 and as a vehicle",
-      "among 10 to 30 by the time to 0.1 m and the fixed epochs, none with wrong integers",
-      "PPP of ESBC before 12:00"};
-  constexpr DataChoice clock_difference_choice{
-      "simulated canyons, seeds 1 to 10, ESBC station, Kamakura car and Riverside",
-      "among 10 to 100 m by the errors in canyons; the three real receivers have 1 to 8 m",
-      "PPP between houses, seeds 1 to 10; the first minutes of the others"};
-  constexpr DataChoice vertical_speed_choice{
-      "simulated canyons, seeds 1 to 10, Riverside and Kamakura car",
-      "among five pairs of 0.3 to 1 m/s and 10 to 20 s: the errors, and slopes of 5 % at 10 m/s",
-      "PPP between houses, seeds 1 to 10; PPP of Riverside and of Kamakura"};
-  constexpr DataChoice range_error_time_choice{"ESBC station with broadcast orbits, 00:00 to 12:00",
-                                               "among 1, 4 and 12 hours by the errors",
-                                               "PPP of ESBC before 12:00 with broadcast orbits"};
-  constexpr DataChoice phase_correlation_choice{
-      "simulated canyons, seeds 1 to 10, ESBC station before 12:00 and Kamakura car",
-      "with `common_phase_sigma` among ten pairs of 1 to 20 s and 1 to 6 mm, by the errors",
-      "PPP between houses, seeds 1 to 10; PPP of ESBC before 12:00 and of Kamakura"};
-  constexpr DataChoice common_sigma_choice{
-      "simulated canyons, seeds 1 to 10, ESBC station and Kamakura car",
-      "codes among 0 to 1 m, phases among 0 to 10 mm, by the errors",
-      "PPP between houses, seeds 1 to 10; PPP of ESBC and of Kamakura"};
-  constexpr DataChoice measured_ionosphere_walk_choice{
-      "simulated canyons, seeds 1 to 10", "among 3, 6, 10, 20 and 30 mm/sqrt(s) by the errors",
-      "PPP between houses, seeds 1 to 10"};
-  constexpr DataChoice reflections_choice{
-      "simulated canyons, seeds 1 to 10 and 101 to 130, Kamakura car and Riverside",
-      "among a handful of values each by the errors in canyons; the real drives do not get worse",
-      "PPP between houses, these seeds; PPP of Kamakura and of Riverside"};
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"motion", one_of<&P::motion>, usual, "Whether the receiver moves."},
       {"systems", &P::systems, usual,
@@ -111,8 +42,7 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "The same for the Doppler shift."},
       {"reflected_doppler", &P::reflected_doppler, 0.0, 10.0, "1", expert,
        "Standard deviation of the Doppler shift of a signal that is surely reflected, as a share "
-       "of "
-       "the speed.",
+       "of the speed.",
        reflections_choice},
       {"glonass_code_factor", &P::glonass_code_factor, smallest, 1000.0, "1", expert,
        "Factor on code_sigma for GLONASS, whose channels have biases of their own."},
@@ -126,9 +56,8 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Correlation time of the code biases of the GLONASS channels.",
        glonass_code_correlation_choice},
       {"first_code_factor", &P::first_code_factor, 1.0, 1000.0, "1", expert,
-       "Factor on the variance of a satellite's first code if obstacles have weakened its signal "
-       "to "
-       "nothing: its error lasts.",
+       "Factor on the variance of a satellite's first code if obstacles have weakened its "
+       "signal to nothing: its error lasts.",
        reflections_choice},
       {"late_code_freedom", &P::late_code_freedom, smallest, 1e9, "1", expert,
        "Degrees of freedom of the errors of codes that are too long: a residual of as many "

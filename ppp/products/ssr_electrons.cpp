@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace maploop::ppp {
 namespace {
@@ -19,24 +20,41 @@ double normalization(int n, int m) {
   return std::sqrt((m == 0 ? 1.0 : 2.0) * (2 * n + 1) * ratio);
 }
 
+// Calls `visit(n, m, cosine, sine)` with the places of a harmonic's coefficients; an order of 0 has
+// no sine.
+template <class Visit>
+void visit_harmonics(const SsrLayer& layer, Visit visit) {
+  std::size_t cosine = 0, sine = 0;
+  for (int m = 0; m <= layer.order; ++m) {
+    for (int n = m; n <= layer.degree; ++n) visit(n, m, cosine++, m > 0 ? sine++ : 0);
+  }
+}
+
 // Returns the content of a layer above a latitude, at an angle from the meridian of the sun's
 // greatest effect (rad), TECU.
 double content(const SsrLayer& layer, double latitude, double angle) {
   double sum = 0.0;
-  std::size_t cosine = 0, sine = 0;
-  for (int m = 0; m <= layer.order; ++m) {
-    for (int n = m; n <= layer.degree; ++n) {
-      const double p =
-          normalization(n, m) * std::assoc_legendre(static_cast<unsigned>(n),
-                                                    static_cast<unsigned>(m), std::sin(latitude));
-      sum += p * layer.cosines[cosine++] * std::cos(m * angle);
-      if (m > 0) sum += p * layer.sines[sine++] * std::sin(m * angle);
-    }
-  }
+  visit_harmonics(layer, [&](int n, int m, std::size_t cosine, std::size_t sine) {
+    double wave = layer.cosines[cosine] * std::cos(m * angle);
+    if (m > 0) wave += layer.sines[sine] * std::sin(m * angle);
+    sum += wave * std::assoc_legendre(static_cast<unsigned>(n), static_cast<unsigned>(m),
+                                      std::sin(latitude));
+  });
   return sum;
 }
 
 }  // namespace
+
+// The messages' harmonics are orthonormal: the factors are the same for every place.
+void SsrElectrons::set(SsrIonosphere message) {
+  for (SsrLayer& layer : message.layers) {
+    visit_harmonics(layer, [&](int n, int m, std::size_t cosine, std::size_t sine) {
+      layer.cosines[cosine] *= normalization(n, m);
+      if (m > 0) layer.sines[sine] *= normalization(n, m);
+    });
+  }
+  message_ = std::move(message);
+}
 
 bool SsrElectrons::covers(GpsTime t) const {
   return message_ && std::chrono::abs(t - message_->time) <= message_->interval / 2 + longest_age;

@@ -14,13 +14,13 @@ class SsrElectrons : public ElectronContent {
   static constexpr Duration longest_age = std::chrono::minutes(10);
 
   // Replaces what was known.
-  void set(SsrIonosphere message) { message_ = std::move(message); }
+  void set(SsrIonosphere message);
   bool covers(GpsTime t) const override;
   // Returns nothing without a message, or with one that is too old.
   std::optional<VerticalElectrons> at(const PiercePoint& place, GpsTime t) const override;
 
  private:
-  std::optional<SsrIonosphere> message_;
+  std::optional<SsrIonosphere> message_;  // its coefficients are those of harmonics as they are
 };
 
 }  // namespace maploop::ppp

@@ -133,6 +133,16 @@ inline std::string rtcm_ephemeris(const ppp::KeplerMessage& m) {
 
 enum class SsrForm { rtcm, igs };
 
+// Puts the beginning of a message behind its number: every 5 s, the first issue of one solution.
+// `datum` states whether there is a flag for a regional reference frame.
+inline void put_ssr_header(BitWriter& w, ppp::GpsTime epoch, bool datum = false) {
+  w.put(static_cast<std::uint64_t>(std::lround(ppp::seconds_of_week(epoch))), 20)
+      .put(2, 4)
+      .put(0, 1);
+  if (datum) w.put(0, 1);
+  w.put(3, 4).put(258, 16).put(1, 4);
+}
+
 // Returns orbits and clocks of one system (GPS or Galileo) in one message. A decoder should count
 // from `epoch` plus half the interval of 5 s.
 inline std::string ssr_orbits_and_clocks(SsrForm form, ppp::System system, ppp::GpsTime epoch,
@@ -141,11 +151,7 @@ inline std::string ssr_orbits_and_clocks(SsrForm form, ppp::System system, ppp::
   BitWriter w;
   w.put(igs ? 4076 : galileo ? 1243 : 1060, 12);
   if (igs) w.put(1, 3).put(galileo ? 63 : 23, 8);
-  w.put(static_cast<std::uint64_t>(std::lround(ppp::seconds_of_week(epoch))), 20)
-      .put(2, 4)
-      .put(0, 1);
-  if (!igs) w.put(0, 1);
-  w.put(3, 4).put(258, 16).put(1, 4);
+  put_ssr_header(w, epoch, !igs);
   if (igs) w.put(0, 1);
   w.put(updates.size(), 6);
   for (const ppp::SsrUpdate& u : updates) {
@@ -166,14 +172,6 @@ struct NumberedBias {
   int signal;
   double value;  // m
 };
-
-// Puts the beginning of a message behind its number: every 5 s, the first issue of one solution.
-inline void put_ssr_header(BitWriter& w, ppp::GpsTime epoch) {
-  w.put(static_cast<std::uint64_t>(std::lround(ppp::seconds_of_week(epoch))), 20)
-      .put(2, 4)
-      .put(0, 1);
-  w.put(3, 4).put(258, 16).put(1, 4);
-}
 
 // Puts the biases of each satellite, which come together. `between` writes what is between their
 // number and the first, `each` what is behind a signal's number.

@@ -220,19 +220,9 @@ std::string describe(const AttitudeFile& a) {
 std::string info(const std::filesystem::path& path, GnssFiles& files) {
   const FileKind kind = read_into(path, files);
   std::string text = path.string() + ": " + name(kind) + '\n';
-  const auto add = [&](const auto& list) {
-    for (const auto& file : list) text += describe(file);
-  };
-  add(files.observations);
-  add(files.navigation);
-  add(files.orbits);
-  add(files.clocks);
-  add(files.antennas);
-  add(files.biases);
-  add(files.earth_rotation);
-  add(files.ocean_loading);
-  add(files.ionosphere_maps);
-  add(files.attitudes);
+  visit_lists([&](auto list) {
+    for (const auto& file : files.*list) text += describe(file);
+  });
   return text;
 }
 

@@ -146,20 +146,11 @@ void read_phase_biases(Rtcm3Bits& bits, SsrUpdate& update) {
   }
 }
 
-// These fields are at the beginning of each message, behind its number.
-struct SsrHeader {
-  GpsTime time{};
-  Duration interval{};
-  int issue = 0;
-  std::uint32_t solution = 0;
-};
-
 // GLONASS's messages of RTCM count seconds of the day in Moscow. `datum` states whether there is a
 // flag for a regional reference frame.
-SsrHeader read_header(Rtcm3Bits& bits, GpsTime now, bool moscow, bool datum) {
+void read_header(Rtcm3Bits& bits, GpsTime now, bool moscow, bool datum, SsrHeader& header) {
   constexpr Duration day = std::chrono::hours(24);
   const Duration since = std::chrono::seconds(bits.number(moscow ? 17 : 20));
-  SsrHeader header;
   header.interval = update_interval(bits.number(4));
   bits.skip(1);  // the flag for more messages of this time
   if (datum) bits.skip(1);
@@ -171,15 +162,12 @@ SsrHeader read_header(Rtcm3Bits& bits, GpsTime now, bool moscow, bool datum) {
                     : nearest_moment(now, since, 7 * day);
   // The corrections refer to the middle of the interval, except for the shortest one.
   if (header.interval > std::chrono::seconds(1)) header.time += header.interval / 2;
-  return header;
 }
 
 SsrResult decode_ionosphere(Rtcm3Bits& bits, GpsTime now, std::optional<SsrIonosphere>& to) {
   constexpr double coefficient_unit = 0.005, quality_unit = 0.05;  // TECU
-  const SsrHeader header = read_header(bits, now, false, false);
   SsrIonosphere all;
-  all.time = header.time;
-  all.interval = header.interval;
+  read_header(bits, now, false, false, all);
   all.sigma = quality_unit * static_cast<double>(bits.number(9));
   const auto layers = bits.number(2) + 1;
   for (std::uint64_t i = 0; i < layers && bits.good(); ++i) {
@@ -222,12 +210,8 @@ SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUp
   const bool moscow = kind->system == System::glonass && !kind->igs;
   const bool qzss = kind->system == System::qzss;
   const bool orbits = kind->content == Content::orbit || kind->content == Content::both;
-  const SsrHeader header = read_header(bits, now, moscow, orbits && !kind->igs);
   SsrUpdate common;
-  common.time = header.time;
-  common.interval = header.interval;
-  common.issue = header.issue;
-  common.solution = header.solution;
+  read_header(bits, now, moscow, orbits && !kind->igs, common);
   if (orbits && kind->igs) bits.skip(1);
   if (kind->content == Content::phase_bias) bits.skip(2);  // what the biases are consistent with
   const auto count = bits.number(qzss && !kind->igs ? 4 : 6);

@@ -42,13 +42,17 @@ struct SsrPhaseBias {
   int discontinuity = 0;  // counts the jumps of the bias: the ambiguity restarts when it changes
 };
 
-// An SsrUpdate is the content of one message for one satellite.
-struct SsrUpdate {
-  Satellite satellite;
-  GpsTime time{};              // time to which the corrections refer
+// An SsrHeader is what each message begins with, behind its number.
+struct SsrHeader {
+  GpsTime time{};              // time to which the content refers
   Duration interval{};         // time until the next one
   std::uint32_t solution = 0;  // provider and solution; those of two must not be combined
   int issue = 0;               // issue of the solution: orbit and clock of one belong together
+};
+
+// An SsrUpdate is the content of one message for one satellite.
+struct SsrUpdate : SsrHeader {
+  Satellite satellite;
   std::optional<SsrOrbit> orbit;
   std::optional<SsrClock> clock;
   std::optional<double> high_rate_clock;  // m, added to the clock
@@ -67,10 +71,8 @@ struct SsrLayer {
 };
 
 // This is the content of a message of the ionosphere.
-struct SsrIonosphere {
-  GpsTime time{};       // time to which it refers
-  Duration interval{};  // time until the next one
-  double sigma = 0.0;   // TECU, of the vertical content; 0: unknown
+struct SsrIonosphere : SsrHeader {
+  double sigma = 0.0;  // TECU, of the vertical content; 0: unknown
   std::vector<SsrLayer> layers;
 };
 

@@ -20,7 +20,7 @@ class IonexReader {
       if (!lines_.next()) lines_.fail("the file is cut: there is no END OF FILE");
       if (label() == "START OF TEC MAP") read_map("END OF TEC MAP", &IonosphereMap::electrons);
       if (label() == "START OF RMS MAP") read_map("END OF RMS MAP", &IonosphereMap::sigma);
-      if (label() == "EXPONENT") exponent_ = lines_.integer(0, 6, "exponent");
+      note_exponent();
     }
     for (const IonosphereMap& map : result_.maps) {
       if (map.electrons.empty()) lines_.fail("standard deviations without their map of electrons");
@@ -30,6 +30,11 @@ class IonexReader {
 
  private:
   std::string_view label() const { return trimmed(lines_.column(60, 20)); }
+
+  // The exponent may change between any two records.
+  void note_exponent() {
+    if (label() == "EXPONENT") exponent_ = lines_.integer(0, 6, "exponent");
+  }
 
   void read_header() {
     if (!lines_.next() || label() != "IONEX VERSION / TYPE" || lines_.column(20, 1) != "I") {
@@ -46,7 +51,7 @@ class IonexReader {
       }
       if (label() == "LAT1 / LAT2 / DLAT") result_.latitude = read_axis();
       if (label() == "LON1 / LON2 / DLON") result_.longitude = read_axis();
-      if (label() == "EXPONENT") exponent_ = lines_.integer(0, 6, "exponent");
+      note_exponent();
       if (label() == "HGT1 / HGT2 / DHGT" && lines_.number(14, 6, "step of heights") != 0.0)
         lines_.fail("maps of several heights are not supported");
     }
@@ -85,7 +90,7 @@ class IonexReader {
     of.assign(columns * static_cast<std::size_t>(result_.latitude.count), no_value);
     while (lines_.next()) {
       if (label() == end) return;
-      if (label() == "EXPONENT") exponent_ = lines_.integer(0, 6, "exponent");
+      note_exponent();
       if (label() == "LAT/LON1/LON2/DLON/H") read_row(std::span(of), columns);
     }
     lines_.fail("the file ends inside a map");

@@ -34,6 +34,7 @@ class NineSatellites : public ::testing::Test {
       code.add(S::clock, 1.0);
       code.y = 7.0 - to_satellite.dot(moved) + 0.8 * normal_(random_);
       code.sigma = 1.0;
+      code.most_sigmas = PppParameters{}.outlier_sigmas;
       code.variance = 80.0;
       Row phase = code;
       phase.kind = RowKind::phase;

@@ -2,12 +2,11 @@
 //
 //   node comparison_test.mjs MAPLOOP PICTURES CHROMIUM
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { cursors, drag, launch, maploop, open, pictures, reachedByKeys, slider, stretch, testWholePage, time } from "./pages.mjs";
+import { cursors, drag, launch, open, pictures, reachedByKeys, run, slider, stretch, testWholePage, time } from "./pages.mjs";
 
 const file = join(pictures, "comparison.html");
 
@@ -40,8 +39,7 @@ before(async () => {
     write("stereo_alone.tum", (_, way) => [0.00001 * way * way, 0.004 * way, -0.002 * way]),
     write("lidar_alone.tum", (i, way) => [0.003 * way, 0.2 * Math.sin(i / 15), 0.001 * way]),
   ];
-  const run = spawnSync(maploop, ["evaluate", ...runs, "--truth", truth, "--align", "origin", "--html", file]);
-  assert.equal(run.status, 0, String(run.stderr));
+  run("evaluate", ...runs, "--truth", truth, "--align", "origin", "--html", file);
 });
 
 after(() => browser?.close());

@@ -2,12 +2,11 @@
 //
 //   node gnss_test.mjs MAPLOOP PICTURES CHROMIUM
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { cursors, drag, launch, maploop, open, pictures, reachedByKeys, slider, stretch, testWholePage, time } from "./pages.mjs";
+import { cursors, drag, launch, open, pictures, reachedByKeys, run, slider, stretch, testWholePage, time } from "./pages.mjs";
 
 const folder = join(process.env.MAPLOOP_DATA, "gnss");
 const car = (name) => join(folder, "kamakura_kinematic", name);
@@ -20,20 +19,15 @@ if (!existsSync(folder)) {
 const file = join(pictures, "gnss.html"); // two frequencies, smoothed
 const single = join(pictures, "gnss-single.html"); // one frequency, with an outage
 
-function ppp(...args) {
-  const run = spawnSync(maploop, ["ppp", ...args]);
-  assert.equal(run.status, 0, String(run.stderr));
-}
-
 let browser;
 
 before(async () => {
   browser = await launch();
-  ppp(car("SEPT265G.21O.gz"), join(folder, "models/igs14_rebuilt_GE.atx.gz"), car("SEPT2650.21P.gz"),
+  run("ppp", car("SEPT265G.21O.gz"), join(folder, "models/igs14_rebuilt_GE.atx.gz"), car("SEPT2650.21P.gz"),
     car("COD0MGXFIN_20212650000_01D_05M_ORB.SP3.gz"), car("COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz"), "--systems", "GE",
     "--direction", "smoothed", "--truth", car("rtk_reference.pos.gz"), "--compare", car("rtklib_ppp_kinematic_ge.pos.gz"),
     "--html", file);
-  ppp(drive("COM3_200712.obs.gz"), drive("COM3_200712.nav.gz"), join(folder, "esbc_static/ESBC00DNK_R_20201770000_01D_MN.rnx.gz"),
+  run("ppp", drive("COM3_200712.obs.gz"), drive("COM3_200712.nav.gz"), join(folder, "esbc_static/ESBC00DNK_R_20201770000_01D_MN.rnx.gz"),
     "--end", "600", "--gnss-outage", "200:60", "--html", single);
 });
 

@@ -2,12 +2,11 @@
 //
 //   node match_test.mjs MAPLOOP PICTURES CHROMIUM
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
 import { statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { cursors, drag, isDrawn, launch, maploop, open, pictures, reachedByKeys, slider, stretch, testWholePage, time } from "./pages.mjs";
+import { cursors, drag, isDrawn, launch, open, pictures, reachedByKeys, run, slider, stretch, testWholePage, time } from "./pages.mjs";
 
 const file = join(pictures, "match.html");
 const [rows, columns, block] = [8, 8, 150]; // of a town; m
@@ -57,8 +56,7 @@ before(async () => {
   const [map, csv] = [join(pictures, "town.osm"), join(pictures, "track.csv")];
   writeFileSync(map, town());
   writeFileSync(csv, track());
-  const run = spawnSync(maploop, ["match", map, csv, "--html", file]);
-  assert.equal(run.status, 0, String(run.stderr));
+  run("match", map, csv, "--html", file);
 });
 
 after(() => browser?.close());

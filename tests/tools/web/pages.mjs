@@ -1,5 +1,6 @@
 // Opens written pages in a browser, and asserts what holds for every one of them.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { test } from "node:test";
@@ -9,6 +10,12 @@ import { chromium } from "playwright-core";
 import { assertAccessible } from "./accessible.mjs";
 
 export const [maploop, pictures, executablePath] = process.argv.slice(2);
+
+// Runs a command of maploop to its end.
+export function run(...args) {
+  const { status, stderr } = spawnSync(maploop, args);
+  assert.equal(status, 0, String(stderr));
+}
 
 export function launch() {
   return chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu"] });

@@ -2,21 +2,15 @@
 //
 //   node profile_test.mjs MAPLOOP PICTURES CHROMIUM
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
 import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { launch, maploop, open, pictures, reachedByKeys, testWholePage } from "./pages.mjs";
+import { launch, open, pictures, reachedByKeys, run, testWholePage } from "./pages.mjs";
 
 const file = join(pictures, "profile.html");
 const lockstep = join(pictures, "profile-lockstep.html");
 const untraced = join(pictures, "profile-untraced.html");
-
-function run(...args) {
-  const { status, stderr } = spawnSync(maploop, args);
-  assert.equal(status, 0, String(stderr));
-}
 
 let browser;
 

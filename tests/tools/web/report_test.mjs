@@ -2,21 +2,15 @@
 //
 //   node report_test.mjs MAPLOOP PICTURES CHROMIUM
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
 import { existsSync, readdirSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { cursors, drag, launch, maploop, open, pictures, reachedByKeys, slider, stretch, testWholePage, time } from "./pages.mjs";
+import { cursors, drag, launch, open, pictures, reachedByKeys, run, slider, stretch, testWholePage, time } from "./pages.mjs";
 
 const file = join(pictures, "report.html");
 const drive = join(pictures, "town");
 const minutes = 2;
-
-function run(...args) {
-  const { status, stderr } = spawnSync(maploop, args);
-  assert.equal(status, 0, String(stderr));
-}
 
 let browser;
 

@@ -2,6 +2,7 @@
 // the wheel to zoom.
 import { ink, onColours, tokensOf } from "./palette";
 import type { Line, Numbers } from "./plot";
+import { roundStep } from "./round";
 
 export type Draw = (map: MapView, context: CanvasRenderingContext2D) => void;
 
@@ -187,9 +188,7 @@ export class MapView {
 
   private drawScale(): void {
     const { context, canvas } = this;
-    const rough = 90 / this.scale;
-    const power = 10 ** Math.floor(Math.log10(rough));
-    const length = power * (rough / power >= 5 ? 5 : rough / power >= 2 ? 2 : 1);
+    const length = roundStep(90 / this.scale);
     const [x, y] = [12, canvas.clientHeight - 12];
     context.strokeStyle = context.fillStyle = ink("soft");
     context.lineWidth = 2;

@@ -37,8 +37,9 @@ export interface Tick {
 
 export const length = ({ from, to }: { from: number; to: number }) => to - from;
 
-function percentile(sorted: number[], share: number): number {
-  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] ?? 0;
+// The one that is at a share of all; there is at least one.
+function percentile<Value>(sorted: Value[], share: number): Value {
+  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))]!;
 }
 
 export class Ticks {
@@ -72,8 +73,7 @@ export class Ticks {
 
   // The one that is longer than a share of all.
   atPercentile(kind: string, share: number): Tick {
-    const sorted = [...this.kinds.get(kind)!].sort((a, b) => length(a) - length(b));
-    return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))]!;
+    return percentile([...this.kinds.get(kind)!].sort((a, b) => length(a) - length(b)), share);
   }
 
   median(kind: string, part: Part): number {

@@ -1,6 +1,7 @@
 // Any tick of a traced run as a time line: a row for each thread, waits between what ran, the guilty part marked.
 import { drawChart } from "./chart";
 import { button, choice, element, figureIn, region, table } from "./dom";
+import { roundStep } from "./round";
 import { length, Ticks, type Part, type Span, type Tick, type Trace } from "./tick_data";
 
 const around = 0.04; // share of the time that is shown before and after
@@ -154,9 +155,7 @@ class TickView {
     const row = element("div", this.rows, "", "row");
     element("span", row, "ms");
     const scale = element("div", row, "", "flame");
-    const rough = (60 * (to - from)) / Math.max(scale.clientWidth, 1); // 60 px a mark
-    const power = 10 ** Math.floor(Math.log10(rough));
-    const step = power * (rough / power >= 5 ? 5 : rough / power >= 2 ? 2 : 1);
+    const step = roundStep((60 * (to - from)) / Math.max(scale.clientWidth, 1)); // 60 px a mark
     for (let t = 0; this.tick.from + t <= to; t += step) {
       const mark = element("b", scale, `${Number(t.toPrecision(6))}`);
       mark.style.left = `${(100 * (this.tick.from + t - from)) / (to - from)}%`;
