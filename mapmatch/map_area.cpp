@@ -8,24 +8,40 @@
 #include "msgs/frames.h"
 
 namespace maploop::mapmatch {
+namespace {
+
+struct Reach {
+  double north = 0.0, east = 0.0;  // degrees
+};
+
+Reach reach_of(double metres, const Geodetic& place) {
+  constexpr double metres_a_degree = 111'200.0;
+  const double north = metres / metres_a_degree;
+  return {north, north / std::max(std::cos(place.latitude), 0.01)};
+}
+
+}  // namespace
 
 GeographicBox area_of(const RoadNetwork& network) {
-  GeographicBox box{180.0, 90.0, -180.0, -90.0};
+  GeographicBox box = no_area;
   for (const Vertex& v : network.data().vertices) {
     const Geodetic place = network.to_geodetic(v.position());
-    box.west = std::min(box.west, degrees(place.longitude));
-    box.east = std::max(box.east, degrees(place.longitude));
-    box.south = std::min(box.south, degrees(place.latitude));
-    box.north = std::max(box.north, degrees(place.latitude));
+    const double longitude = degrees(place.longitude), latitude = degrees(place.latitude);
+    box = joined(box, {longitude, latitude, longitude, latitude});
   }
   return box;
 }
 
-bool covers(const GeographicBox& box, const Geodetic& place, double margin) {
-  constexpr double metres_a_degree = 111'200.0;
+GeographicBox around(const Geodetic& place, double metres) {
   const double latitude = degrees(place.latitude), longitude = degrees(place.longitude);
-  const double north = margin / metres_a_degree;
-  const double east = north / std::max(std::cos(place.latitude), 0.01);
+  const auto [north, east] = reach_of(metres, place);
+  return {std::remainder(longitude - east, 360.0), std::max(latitude - north, -90.0),
+          std::remainder(longitude + east, 360.0), std::min(latitude + north, 90.0)};
+}
+
+bool covers(const GeographicBox& box, const Geodetic& place, double margin) {
+  const double latitude = degrees(place.latitude), longitude = degrees(place.longitude);
+  const auto [north, east] = reach_of(margin, place);
   return latitude >= box.south - north && latitude <= box.north + north &&
          longitude >= box.west - east && longitude <= box.east + east;
 }

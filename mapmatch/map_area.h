@@ -3,13 +3,17 @@
 
 #include <string>
 
-#include "mapmatch/osm_reader.h"
+#include "mapmatch/geographic_box.h"
 #include "mapmatch/road_network.h"
 
 namespace maploop::mapmatch {
 
 // Returns the smallest box, in degrees, that contains every vertex of the network.
 GeographicBox area_of(const RoadNetwork& network);
+
+// Returns the box that reaches `metres` from a place to each side. Across the 180th meridian its
+// west is greater than its east.
+GeographicBox around(const Geodetic& place, double metres);
 
 // Returns whether the place is in the box or at most `margin` metres outside it.
 bool covers(const GeographicBox& box, const Geodetic& place, double margin);

@@ -17,6 +17,10 @@ Eigen::Vector2d along_azimuth(double azimuth) {
 
 }  // namespace
 
+bool has_position(const NavState& state) {
+  return state.status != NavStatus::uninitialized && state.status != NavStatus::without_course;
+}
+
 VehicleFix fix_of(const NavState& state) {
   VehicleFix fix;
   fix.stamp = state.stamp;
@@ -38,7 +42,7 @@ MapMatch& NavMatcher::add(const NavState& state) {
   match_.covariance = state.covariance.topLeftCorner<2, 2>();
   match_.vehicle_azimuth = state.attitude.azimuth;
   match_.speed = state.forward_speed;
-  if (state.status == NavStatus::uninitialized || state.status == NavStatus::without_course) {
+  if (!has_position(state)) {
     match_.refusal = FixRefusal::no_position;
     return match_;
   }

@@ -9,6 +9,9 @@
 
 namespace maploop::mapmatch {
 
+// Returns whether a state has a position and a course, without which it cannot be matched.
+bool has_position(const NavState& state);
+
 // Returns the part of a state that the matcher uses: position, speed and azimuth of the body with
 // their standard deviations from the state's covariance.
 VehicleFix fix_of(const NavState& state);

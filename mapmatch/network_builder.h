@@ -22,6 +22,8 @@ struct MapWay {
 struct MapRestriction {
   std::int64_t from_way = 0, via_node = 0, to_way = 0;
   bool only = false;
+
+  void archive(auto& ar) { ar(from_way, via_node, to_way, only); }
 };
 
 struct MapExtract {

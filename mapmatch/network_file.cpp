@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "mapmatch/network_builder.h"
+#include "mapmatch/tiled_map.h"
 #include "msgs/archive.h"
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
@@ -55,6 +56,8 @@ NetworkData load_network(const std::filesystem::path& file) {
 }
 
 NetworkData open_network(const std::filesystem::path& file, const OsmOptions& options) {
+  if (is_tiled_map(file))
+    return build_network(TiledMap(file).read(options.box.value_or(GeographicBox{})));
   return is_archive(file) ? load_network(file) : build_network(read_osm(file, options));
 }
 

@@ -16,7 +16,8 @@ void save_network(const std::filesystem::path& file, const NetworkData& network)
 // Throws std::runtime_error, which names the file and the error.
 NetworkData load_network(const std::filesystem::path& file);
 
-// Opens a network file or a map. Throws as load_network and read_osm do.
+// Opens a network file, a tiled map or a map. With a box, of a tiled map the tiles that meet it.
+// Throws as load_network, TiledMap and read_osm do.
 NetworkData open_network(const std::filesystem::path& file, const OsmOptions& options = {});
 
 }  // namespace maploop::mapmatch

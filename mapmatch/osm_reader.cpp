@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "mapmatch/osm_tags.h"
+#include "mapmatch/osm_objects.h"
 
 namespace maploop::mapmatch {
 namespace {
@@ -41,21 +41,6 @@ void require_room(const std::vector<MapNode>& nodes, const OsmOptions& options) 
                              " nodes; select a part of it with a box");
 }
 
-// libosmium finds the end of each key and value by its zero byte. A zero byte inside a string would
-// make it read past the end of the list.
-template <class Object>
-const osmium::TagList& sound_tags(const Object& object) {
-  const osmium::TagList& tags = object.tags();
-  const unsigned char* const begin = tags.data() + sizeof tags;
-  const unsigned char* const end = tags.data() + tags.byte_size();
-  if (std::count(begin, end, '\0') % 2 != 0 || (begin != end && end[-1] != '\0')) {
-    throw std::runtime_error("a tag of " + std::string(osmium::item_type_to_name(object.type())) +
-                             " " + std::to_string(object.id()) +
-                             " has a zero byte inside: the file is damaged, download it again");
-  }
-  return tags;
-}
-
 // Collects the nodes inside the box.
 class NodesInside : public osmium::handler::Handler {
  public:
@@ -77,48 +62,25 @@ class Roads : public osmium::handler::Handler {
   Roads(MapExtract& map, const OsmOptions& options) : map_(map), options_(options) {}
 
   void way(const osmium::Way& w) {
-    const osmium::TagList& tags = sound_tags(w);
-    const auto road = road_from_tags(
-        w.id(), [&](const char* key) { return std::string_view(tags.get_value_by_key(key, "")); });
+    std::optional<MapWay> road = road_of(w);
     if (!road) return;
-    MapWay way{*road, {}};
-    for (const osmium::NodeRef& n : w.nodes()) way.nodes.push_back(n.ref());
     if (options_.box) {
-      if (std::none_of(way.nodes.begin(), way.nodes.end(),
+      if (std::none_of(road->nodes.begin(), road->nodes.end(),
                        [&](std::int64_t id) { return find(map_.nodes, id) != nullptr; }))
         return;
     } else {
-      for (const std::int64_t id : way.nodes) map_.nodes.push_back({id, not_placed, 0.0});
+      for (const std::int64_t id : road->nodes) map_.nodes.push_back({id, not_placed, 0.0});
       if (map_.nodes.size() > options_.max_nodes) sort_once(map_.nodes);
       require_room(map_.nodes, options_);
     }
-    map_.ways.push_back(std::move(way));
+    map_.ways.push_back(std::move(*road));
   }
 
   void relation(const osmium::Relation& r) {
-    const osmium::TagList& tags = sound_tags(r);
-    if (!tags.has_tag("type", "restriction")) return;
-    const std::string_view except = tags.get_value_by_key("except", "");
-    for (const char* car : {"motorcar", "motor_vehicle"})
-      if (except.find(car) != std::string_view::npos) return;
-    const char* told = "";  // the most specific key has priority
-    for (const char* key : {"restriction", "restriction:motor_vehicle", "restriction:motorcar"})
-      told = tags.get_value_by_key(key, told);
-    const std::string_view kind = told;
-    MapRestriction restriction;
-    bool over_a_way = false;
-    restriction.only = kind.starts_with("only_");
-    if (!restriction.only && !kind.starts_with("no_")) return;
-    for (const osmium::RelationMember& m : r.members()) {
-      const std::string_view role = m.role();
-      if (role == "from" && m.type() == osmium::item_type::way) restriction.from_way = m.ref();
-      if (role == "to" && m.type() == osmium::item_type::way) restriction.to_way = m.ref();
-      if (role == "via" && m.type() == osmium::item_type::node) restriction.via_node = m.ref();
-      over_a_way = over_a_way || (role == "via" && m.type() == osmium::item_type::way);
-    }
-    map_.restrictions_over_ways += over_a_way ? 1 : 0;
-    if (restriction.from_way != 0 && restriction.to_way != 0 && restriction.via_node != 0)
-      map_.restrictions.push_back(restriction);
+    const auto found = restriction_of(r);
+    if (!found) return;
+    map_.restrictions_over_ways += found->over_a_way ? 1 : 0;
+    if (found->usable()) map_.restrictions.push_back(found->restriction);
   }
 
  private:
@@ -180,22 +142,13 @@ MapExtract read(const osmium::io::File& file, const OsmOptions& options) {
 }  // namespace
 
 MapExtract read_osm(const std::filesystem::path& file, const OsmOptions& options) {
-  const auto fail = [&](const std::string& what) {
-    return std::runtime_error("cannot read the map " + file.string() + ": " + what);
-  };
-  if (!std::filesystem::exists(file)) throw fail("there is no such file");
-  if (!std::filesystem::is_regular_file(file)) throw fail("it is not a regular file");
-  if (std::filesystem::file_size(file) == 0) throw fail("it is empty");
   MapExtract map;
-  try {
-    map = read(osmium::io::File(file.string()), options);
-  } catch (const std::bad_alloc&) {
-    throw fail("it does not fit into memory; select a part of it with a box");
-  } catch (const std::exception& e) {
-    throw fail(std::string(e.what()) + " (expected: .osm.pbf, .osm, .osm.gz or .osm.bz2)");
+  read_map_file(file, [&](const osmium::io::File& opened) { map = read(opened, options); });
+  if (map.ways.empty() || map.nodes.empty()) {
+    throw std::runtime_error(
+        "cannot read the map " + file.string() +
+        (options.box ? ": it has no roads inside the box" : ": it has no roads"));
   }
-  if (map.ways.empty() || map.nodes.empty())
-    throw fail(options.box ? "it has no roads inside the box" : "it has no roads");
   return map;
 }
 

@@ -5,14 +5,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "mapmatch/geographic_box.h"
 #include "mapmatch/network_builder.h"
 
 namespace maploop::mapmatch {
-
-// The box is in degrees, WGS84.
-struct GeographicBox {
-  double west = -180.0, south = -90.0, east = 180.0, north = 90.0;
-};
 
 struct OsmOptions {
   // If set, reads only the nodes inside; map content outside takes no memory.

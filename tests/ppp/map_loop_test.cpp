@@ -30,13 +30,13 @@ Driven riverside(bool tight, double shift = 0.0) {
   mapmatch::NetworkData map =
       mapmatch::open_network(data / "maps/riverside/riverside_from_2021_drives.osm.pbf");
   for (mapmatch::Vertex& v : map.vertices) v.east += shift;
-  const mapmatch::RoadNetwork network(std::move(map));
-  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
+  const auto roads = std::make_shared<const vehicle::RoadMap>(vehicle::RoadMap{
+      mapmatch::RoadNetwork(std::move(map)), mapmatch::read_rule_bases(mapmatch::default_rules())});
   const Truth truth((data / "gnss/riverside_drive/groundtruth.csv.gz").string(),
                     files.observations[0].epochs[0].time);
   RunOptions options;
   options.parameters.systems = "GEC";
-  options.map = MapOptions{&network, &rules, {}, {}, tight};
+  options.map = MapOptions{roads, {}, {}, tight};
   PppRun run(files, options);
   Score with(truth, 1e-4), without(truth, 1e-4);
   Driven driven;

@@ -1,15 +1,26 @@
 #include "tools/command/match_input_options.h"
 
+#include "mapmatch/map_area.h"
 #include "mapmatch/network_file.h"
+#include "mapmatch/tiled_map.h"
 #include "msgs/frames.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 
 namespace maploop::tools {
 
-mapmatch::RoadNetwork MatchInputOptions::network() const {
+mapmatch::RoadNetwork MatchInputOptions::network(
+    const std::vector<std::filesystem::path>& tracks) const {
+  constexpr double margin = 1000.0;  // m about each fix
   mapmatch::OsmOptions osm;
-  if (!box.empty()) osm.box = {box[0], box[1], box[2], box[3]};
+  if (!box.empty()) {
+    osm.box = {box[0], box[1], box[2], box[3]};
+  } else if (mapmatch::is_tiled_map(map)) {
+    osm.box = mapmatch::no_area;
+    for (const auto& file : tracks)
+      for (const mapmatch::VehicleFix& fix : track(file))
+        osm.box = joined(*osm.box, mapmatch::around(fix.position, margin));
+  }
   return mapmatch::RoadNetwork(mapmatch::open_network(map, osm),
                                side_of_road.value_or(RoadSide::by_map));
 }

@@ -19,7 +19,8 @@ struct MatchInputOptions : MatcherOptions {
   double sigma = match::TrackOptions{}.sigma;  // m
 
   // These throw std::runtime_error naming the file.
-  mapmatch::RoadNetwork network() const;
+  // Of a tiled map without a box, the network has the roads about the tracks.
+  mapmatch::RoadNetwork network(const std::vector<std::filesystem::path>& tracks) const;
   match::Track track(const std::filesystem::path& file) const;
 };
 

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "mapmatch/network_file.h"
+#include "mapmatch/map_area.h"
 #include "msgs/lcm/channel_names.h"
+#include "runtime/vehicle/stages/road_map.h"
 #include "tools/command/bus_listener.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
@@ -56,10 +57,12 @@ struct DashboardOptions {
 constexpr double roads_within = 5000.0;  // m of a drive's origin
 
 // Roads in metres about the origin; none where there is no map.
-std::string roads_about(const mapmatch::RoadNetwork* network, const Geodetic& origin) {
+std::string roads_about(const vehicle::RoadMap* map, const Geodetic& origin) {
   web::Plot plot;
-  if (network != nullptr)
-    plot.roads = match::road_lines(*network, origin, {{"", {0.0}, {0.0}}}, roads_within);
+  if (map != nullptr) {
+    const auto roads = network_within(*map, mapmatch::around(origin, roads_within));
+    plot.roads = match::road_lines(*roads, origin, {{"", {0.0}, {0.0}}}, roads_within);
+  }
   return web::to_json(plot);
 }
 
@@ -87,8 +90,9 @@ int run(const DashboardOptions& options) {
         "this maploop was built without npm, which makes the dashboard's page: install npm "
         "(tools/install-packages web) and build again");
   }
-  std::optional<mapmatch::RoadNetwork> network;
-  if (!options.map.empty()) network.emplace(mapmatch::open_network(options.map));
+  vehicle::MapParameters map_options;
+  map_options.file = options.map;
+  const auto map = vehicle::load_road_map(map_options);
   dashboard::LiveChannels channels;
   dashboard::Relay relay(channels);
   std::optional<dashboard::FoxgloveBridge> foxglove;
@@ -116,7 +120,7 @@ int run(const DashboardOptions& options) {
   const dashboard::Server server(
       options.address, options.port, channels,
       {[&](const std::string& id) { return relay.trail(id); }, control,
-       [&](const Geodetic& origin) { return roads_about(network ? &*network : nullptr, origin); }});
+       [&](const Geodetic& origin) { return roads_about(map.get(), origin); }});
   note_interrupts();
   std::cout << "http://" << options.address << ':' << server.port() << "/  (Ctrl-C ends it)"
             << std::endl;

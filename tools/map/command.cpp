@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mapmatch/network_file.h"
+#include "mapmatch/tiled_map_builder.h"
 #include "msgs/frames.h"
 #include "msgs/time.h"
 #include "tools/command/commands.h"
@@ -26,6 +27,7 @@ namespace {
 struct MapOptions {
   std::filesystem::path input, output, json, doubts;
   double min_probability = 0.9;  // of doubts that correct the map
+  bool tiles = false;            // makes a tiled map
   std::vector<double> box;
 
   mapmatch::OsmOptions osm() const {
@@ -119,7 +121,28 @@ void print(const nlohmann::json& info, double milliseconds) {
   std::cout << "read in " << milliseconds << " ms\n";
 }
 
+int build_tiles(const MapOptions& options) {
+  int step = 0;
+  mapmatch::OsmOptions osm = options.osm();
+  osm.max_nodes = 100'000'000;  // 16 bytes each
+  const mapmatch::TiledMapSummary built = mapmatch::build_tiled_map(
+      options.input, options.output, osm,
+      [&](const std::string& name) { std::cerr << fmt::format("[{}/4] {}\n", ++step, name); });
+  std::cout << fmt::format(
+      "{} ways with {} nodes in {} tiles; {} turn restrictions\n"
+      "wrote {}, {} bytes\n",
+      built.ways, built.nodes, built.tiles, built.restrictions, options.output.string(),
+      std::filesystem::file_size(options.output));
+  if (built.missing_nodes > 0) {
+    std::cout << fmt::format(
+        "note: {} nodes of roads are missing in the map: their roads end there\n",
+        built.missing_nodes);
+  }
+  return 0;
+}
+
 int build(const MapOptions& options) {
+  if (options.tiles) return build_tiles(options);
   const OpenedNetwork opened = open(options);
   save_network(options.output, opened.network.data());
   print(describe(opened.network), opened.milliseconds);
@@ -161,6 +184,9 @@ void add_map(CLI::App& app, Command& command) {
              "added, whole ways opened in both directions, and turns allowed; shifted roads "
              "are left")
           ->check(existing_file());
+  sub->add_flag("--tiles", options->tiles,
+                "Make a tiled map instead, for countries: it is read only near the vehicle")
+      ->excludes(doubts);
   sub->add_option("--doubts-probability", options->min_probability,
                   "Only by those that are at least so likely")
       ->needs(doubts)

@@ -27,7 +27,7 @@ struct DoubtOptions : MatchInputOptions {
 };
 
 int find_doubts(const DoubtOptions& options) {
-  const mapmatch::RoadNetwork network = options.network();
+  const mapmatch::RoadNetwork network = options.network(options.tracks);
   const mapmatch::RuleBases rules = options.rule_bases();
   const mapmatch::MatchParameters parameters = options.parameters();
   if (!parameters.paths) {

@@ -116,7 +116,7 @@ void check_options(const MatchOptions& o) {
 }
 
 int match_tracks(const MatchOptions& options) {
-  const mapmatch::RoadNetwork network = options.network();
+  const mapmatch::RoadNetwork network = options.network(options.tracks);
   if (network.left_hand_traffic() != network.one_way_checks().left_hand_traffic()) {
     std::cerr << "warning: most opposite carriageways of the map are those of traffic on the other "
                  "side; is --side-of-road right?\n";

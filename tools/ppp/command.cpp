@@ -77,9 +77,9 @@ vehicle::VehicleConfig config_of(const PppOptions& options) {
 }
 
 std::optional<gnss::MapOptions> map_of(const vehicle::VehicleConfig& config,
-                                       const vehicle::RoadMap* map) {
+                                       std::shared_ptr<const vehicle::RoadMap> map) {
   if (map == nullptr) return std::nullopt;
-  return gnss::MapOptions{&map->network, &map->rules, config.mapmatch, config.feedback,
+  return gnss::MapOptions{std::move(map), config.mapmatch, config.feedback,
                           config.map.mode == vehicle::MapMode::tight};
 }
 
@@ -197,8 +197,7 @@ int positions(const PppOptions& options) {
   const bool any = !files.observations.empty() && !files.observations[0].epochs.empty();
   const ppp::GpsTime first = any ? files.observations[0].epochs.front().time : ppp::GpsTime{};
   const ppp::GpsTime last = any ? files.observations[0].epochs.back().time : first;
-  gnss::PppRun run(files,
-                   run_options(options, config, map_of(vehicle_config, map.get()), first, last));
+  gnss::PppRun run(files, run_options(options, config, map_of(vehicle_config, map), first, last));
   const bool on_map = map != nullptr;
   const gnss::PppResult result = process(run, options, config.integrity_risk, on_map, first);
   const std::vector<std::string> summary =

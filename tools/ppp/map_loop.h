@@ -1,6 +1,7 @@
 // The matcher on the PPP solution, and what goes back to the filter.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "mapmatch/feedback.h"
@@ -8,13 +9,12 @@
 #include "msgs/map_feedback.h"
 #include "msgs/ppp_state.h"
 #include "ppp/filter/map_aided_filter.h"
+#include "runtime/vehicle/stages/map_window.h"
 
 namespace maploop::gnss {
 
-// Network and rules must outlive who uses them.
 struct MapOptions {
-  const mapmatch::RoadNetwork* network = nullptr;
-  const mapmatch::RuleBases* rules = nullptr;
+  std::shared_ptr<const vehicle::RoadMap> map;
   mapmatch::MatchParameters match;
   mapmatch::FeedbackParameters feedback;
   bool tight = true;  // else matched only
@@ -30,18 +30,19 @@ struct MapStep {
 
 class MapLoop {
  public:
-  explicit MapLoop(const MapOptions& options)
-      : tight_(options.tight),
-        matcher_(*options.network, *options.rules, options.match),
-        feedback_(*options.network, options.feedback) {}
+  explicit MapLoop(const MapOptions& options);
 
   // Of the filter's last epoch.
   MapStep close(ppp::MapAidedFilter& filter);
 
  private:
-  bool tight_;
-  mapmatch::Matcher matcher_;
-  mapmatch::Feedback feedback_;
+  void begin_matching();
+
+  MapOptions options_;
+  vehicle::MapWindow window_;
+  std::shared_ptr<const mapmatch::RoadNetwork> network_;  // to which the next two refer
+  std::optional<mapmatch::Matcher> matcher_;
+  std::optional<mapmatch::Feedback> feedback_;
   PppState state_;
 };
 

@@ -150,7 +150,7 @@ void Replay::look_ahead() const {
   }
   GnssFix fix;
   if (map_ == nullptr || sensors.gnss == nullptr || !sensors.gnss->next(fix)) return;
-  const mapmatch::GeographicBox area = mapmatch::area_of(map_->network);
+  const mapmatch::GeographicBox area = vehicle::area_of(*map_);
   if (mapmatch::covers(area, fix.position, far_from_map)) return;
   std::cerr << "maploop: the drive begins at " << degrees(fix.position.latitude) << ", "
             << degrees(fix.position.longitude) << ", far outside of the map, which covers "

@@ -247,8 +247,9 @@ bool RunOutput::write(const ReplayResult& result, const RunPass& pass,
   }
   if (!options_.report.empty()) {
     all &= attempt([&] {
-      options_.write_page(options_.report, {result, pass, std::move(reference), config_,
-                                            map != nullptr ? &map->network : nullptr});
+      const auto roads = map != nullptr ? roads_about(pass, *map) : nullptr;
+      options_.write_page(options_.report,
+                          {result, pass, std::move(reference), config_, roads.get()});
     });
   }
   // The verdict comes last, because its reader may be gone.

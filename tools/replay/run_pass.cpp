@@ -13,8 +13,8 @@ namespace {
 
 constexpr double segment_m = 100.0;
 
-MapUse map_use(const NavState& end, const RunPass& pass, const mapmatch::RoadNetwork& network) {
-  const mapmatch::GeographicBox area = mapmatch::area_of(network);
+MapUse map_use(const NavState& end, const RunPass& pass, const vehicle::RoadMap& map) {
+  const mapmatch::GeographicBox area = vehicle::area_of(map);
   const bool on_road = std::any_of(pass.matches.begin(), pass.matches.end(),
                                    [](const auto& match) { return match.second.on_road; });
   const Geodetic last = LocalFrame(end.origin).to_geodetic(end.position_enu);
@@ -22,12 +22,15 @@ MapUse map_use(const NavState& end, const RunPass& pass, const mapmatch::RoadNet
 }
 
 match::MatchScore links_score(const RunPass& pass, const vehicle::DrivenLinksFile& driven,
-                              const mapmatch::RoadNetwork& network, Time from) {
+                              const vehicle::RoadMap& map, Time from) {
   std::vector<match::TimedMatch> matches;
-  for (const auto& [stamp, match] : pass.matches)
-    if (stamp >= from) matches.push_back(match);
+  for (const auto& [stamp, match] : pass.matches) {
+    if (stamp < from) continue;
+    matches.push_back(match);
+    if (map.tiles) matches.back().matched.link.reset();  // it counts the links of a window
+  }
   auto labels = match::read_labels(driven.file);
-  match::SegmentLinks(network).look_up(labels);
+  match::SegmentLinks(*roads_about(pass, map)).look_up(labels);
   return match::score_matches(matches, driven.stamps, labels);
 }
 
@@ -161,6 +164,17 @@ ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report
   return result;
 }
 
+std::shared_ptr<const mapmatch::RoadNetwork> roads_about(const RunPass& pass,
+                                                         const vehicle::RoadMap& map) {
+  constexpr double margin = 1000.0;  // m
+  mapmatch::GeographicBox box = mapmatch::no_area;
+  for (const NavState& state : pass.track.states()) {
+    const Geodetic place = LocalFrame(state.origin).to_geodetic(state.position_enu);
+    box = mapmatch::joined(box, mapmatch::around(place, margin));
+  }
+  return vehicle::network_within(map, box);
+}
+
 void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,
            const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map,
            const sensors::ReferenceTrajectory* camera_truth, Duration after) {
@@ -170,9 +184,9 @@ void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& 
   const vehicle::Sensors sensors = recording.sensors(Time::max());
   result.has_gnss = sensors.gnss != nullptr || sensors.epochs != nullptr;
   if (result.ppp && sensors.ppp) result.ppp->never_converges = sensors.ppp->never_converges();
-  if (map != nullptr && result.end) result.map = map_use(*result.end, pass, map->network);
+  if (map != nullptr && result.end) result.map = map_use(*result.end, pass, *map);
   if (map != nullptr && recording.driven_links)
-    result.links = links_score(pass, *recording.driven_links, map->network, from);
+    result.links = links_score(pass, *recording.driven_links, *map, from);
   result.peer_reference = recording.peer_reference;
   result.outage_ends = outage_ends(pass.track, recording, reference);
   const Eigen::Isometry3d& T_body_cam = recording.calibration.stereo.T_body_cam;

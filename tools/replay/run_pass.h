@@ -97,6 +97,11 @@ ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report
 
 constexpr double far_from_map = 5'000.0;  // m
 
+// Returns the roads about the drive. The map must outlive them. Throws std::runtime_error if a tile
+// of the map is damaged.
+std::shared_ptr<const mapmatch::RoadNetwork> roads_about(const RunPass& pass,
+                                                         const vehicle::RoadMap& map);
+
 // Adds what the recording contains, the accuracy against `reference`, the links against those
 // driven, and whether the run was on its map, to the result. `map` is nullptr without a map. Ways
 // of the left camera are scored against `camera_truth`; without one (nullptr) against the reference

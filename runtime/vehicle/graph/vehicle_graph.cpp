@@ -133,8 +133,9 @@ Vehicle::Graph::~Graph() {
 }
 
 MatchDescriber Vehicle::Graph::describer() const {
-  return [roads = map](const MapMatch& match) {
-    return mapmatch::in_words(match, roads->network, roads->rules);
+  return [roads = map, networks = networks](const MapMatch& match) {
+    const auto network = networks->at(match.stamp);
+    return network ? mapmatch::in_words(match, *network, roads->rules) : MapMatchWords{};
   };
 }
 
@@ -246,7 +247,7 @@ void Vehicle::Graph::make_stages(const VehicleCalibration& calibration,
       fusion::GuardedFilter(fusion::ReducedImuFilter(config.fusion), guard_of(config)),
       odometry_budget);
   if (rings.has(stages::mapmatch))
-    add_stage<MapMatchStage>(map, config.mapmatch, feedback_of(config));
+    add_stage<MapMatchStage>(map, networks, config.mapmatch, feedback_of(config));
 }
 
 }  // namespace maploop::vehicle

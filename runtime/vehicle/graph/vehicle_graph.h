@@ -22,6 +22,7 @@
 #include "runtime/vehicle/health/health_monitor.h"
 #include "runtime/vehicle/playback/snapshot_stage.h"
 #include "runtime/vehicle/stages/fusion_stage.h"
+#include "runtime/vehicle/stages/networks_in_use.h"
 #include "runtime/vehicle/stages/preview_stage.h"
 
 namespace maploop::vehicle {
@@ -94,7 +95,8 @@ struct Vehicle::Graph {
   std::optional<Snapshot> resumed;  // without its parts, which the stages have taken
   std::vector<SnapshotRequest> snapshot_requests;
   std::unique_ptr<SnapshotStage> snapshots;
-  std::shared_ptr<const RoadMap> map;                    // nullptr: no map
+  std::shared_ptr<const RoadMap> map;  // nullptr: no map
+  const std::shared_ptr<NetworksInUse> networks = std::make_shared<NetworksInUse>();
   std::shared_ptr<const sensors::HostClock> host_clock;  // of live sensors; nullptr: a replay
 
   // In the order of the declaration.

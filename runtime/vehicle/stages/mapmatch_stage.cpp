@@ -11,24 +11,40 @@ static_assert(stages::mapmatch.phase == stages::fusion.budget &&
               stages::mapmatch.period % stages::fusion.period == Duration::zero() &&
               stages::mapmatch.phase + stages::mapmatch.budget < stages::fusion.period);
 
+constexpr std::size_t remembered = 100;  // states with which matching in a new window begins
+
 }  // namespace
 
+MapMatchStage::Matching::Matching(std::shared_ptr<const mapmatch::RoadNetwork> roads,
+                                  const mapmatch::RuleBases& rules,
+                                  const mapmatch::MatchParameters& parameters,
+                                  const std::optional<mapmatch::FeedbackParameters>& back)
+    : network(std::move(roads)),
+      matcher(*network, rules, parameters),
+      doubts(*network, parameters) {
+  if (back) feedback.emplace(*network, *back);
+}
+
 MapMatchStage::MapMatchStage(Rings& rings, std::shared_ptr<const RoadMap> map,
+                             std::shared_ptr<NetworksInUse> networks,
                              const mapmatch::MatchParameters& parameters,
                              const std::optional<mapmatch::FeedbackParameters>& feedback)
     : GraphStage(stages::mapmatch, rings),
       map_(std::move(map)),
-      matcher_(map_->network, map_->rules, parameters),
-      doubts_(map_->network, parameters),
+      parameters_(parameters),
+      feedback_parameters_(feedback),
+      window_(map_),
+      networks_(std::move(networks)),
       matches_(outputs(rings::mapmatch_publisher)),
       doubts_out_(outputs(rings::doubt_publisher)),
       feedbacks_(outputs(rings::mapmatch_fusion, rings::feedback_publisher, rings::mapmatch_ppp)) {
-  if (feedback) feedback_.emplace(map_->network, *feedback);
+  if (window_.moves()) recent_.reserve(remembered);
+  begin_matching();
   GraphStage::take(intake_, rings::fusion_mapmatch,
                    [this](const NavState& state) { newest_ = state; });
   for (const auto* visual : {&rings::stereo_mapmatch, &rings::visual_log_mapmatch}) {
     GraphStage::take(intake_, *visual,
-                     [this](const RelativeMotion& motion) { matcher_.add(motion); });
+                     [this](const RelativeMotion& motion) { matching_->matcher.add(motion); });
   }
 }
 
@@ -55,21 +71,28 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   }
   save_until(k - Duration(1), stop);
   if (intake_.finished() && intake_.taken() == taken_before) {
-    publish(doubts_.finish(), k + spec().budget, stop);
+    publish(matching_->doubts.finish(), k + spec().budget, stop);
     return false;
   }
 
   delay(k);
   intake_.take_until(k);
-  MapMatch& match = matcher_.add(newest_);
+  const mapmatch::VehicleFix fix = mapmatch::fix_of(newest_);
+  if (window_.moves() && mapmatch::has_position(newest_)) {
+    if (window_.follow(fix.position)) {
+      publish(matching_->doubts.finish(), k + spec().budget, stop);
+      begin_matching();
+    }
+    remember(newest_);
+  }
+  MapMatch& match = matching_->matcher.add(newest_);
   match.available = k + spec().budget;
   match.sequence = ticks_++;
   counts_.add(match.refusal);
   matches_.push(match, stop);
-  const mapmatch::VehicleFix fix = mapmatch::fix_of(newest_);
-  publish(doubts_.add(match, fix), match.available, stop);
-  if (feedback_) {
-    MapFeedback feedback = feedback_->decide(match, fix);
+  publish(matching_->doubts.add(match, fix), match.available, stop);
+  if (matching_->feedback) {
+    MapFeedback feedback = matching_->feedback->decide(match, fix);
     feedback.available = match.available;
     feedbacks_.push(feedback, stop);
   }
@@ -77,6 +100,33 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   measure(tick, {due, woken, ready, runtime::monotonic_now()}, intake_.waiting(), clock);
   promise(k + spec().period + spec().budget - Duration(1));
   return true;
+}
+
+void MapMatchStage::remember(const NavState& state) {
+  if (recent_.size() == remembered) recent_.erase(recent_.begin());
+  recent_.push_back(state);
+}
+
+// Matches the last states again on the roads of the window; they were reported before.
+void MapMatchStage::begin_matching() {
+  matching_ =
+      std::make_unique<Matching>(window_.network(), map_->rules, parameters_, feedback_parameters_);
+  networks_->begin(recent_.empty() ? Time::min() : recent_.back().stamp, window_.network());
+  for (const NavState& state : recent_) {
+    const MapMatch& match = matching_->matcher.add(state);
+    const mapmatch::VehicleFix fix = mapmatch::fix_of(state);
+    matching_->doubts.add(match, fix);
+    if (matching_->feedback) matching_->feedback->decide(match, fix);
+  }
+}
+
+std::vector<RefusalCount> MapMatchStage::refusals() {
+  std::vector<RefusalCount> list = counts_.of(spec().name);
+  if (window_.failures() > 0) {
+    list.push_back(
+        {std::string(spec().name), "roads of a damaged tile of the map", window_.failures()});
+  }
+  return list;
 }
 
 // Publishes the doubts that are likelier than not.
@@ -109,16 +159,21 @@ void MapMatchStage::save_until(Time t, const std::stop_token& stop) {
 
 template <class Archive>
 void MapMatchStage::archive(Archive& ar) {
-  ar.section(spec().name, 3);
-  bool closed = feedback_.has_value();
-  ar(matcher_, doubts_, newest_, ticks_, doubt_count_, counts_, closed);
+  ar.section(spec().name, 4);
+  bool closed = feedback_parameters_.has_value();
+  ar(window_, recent_);
   if constexpr (Archive::loading) {
-    if (closed != feedback_.has_value()) {
+    recent_.reserve(window_.moves() ? remembered : 0);
+    begin_matching();
+  }
+  ar(matching_->matcher, matching_->doubts, newest_, ticks_, doubt_count_, counts_, closed);
+  if constexpr (Archive::loading) {
+    if (closed != feedback_parameters_.has_value()) {
       ar.fail(closed ? "it was saved with feedback of the map, which is off here"
                      : "it was saved without feedback of the map, which is on here");
     }
   }
-  if (feedback_) ar(*feedback_);
+  if (matching_->feedback) ar(*matching_->feedback);
 }
 
 }  // namespace maploop::vehicle

@@ -1,16 +1,36 @@
 #include "runtime/vehicle/stages/road_map.h"
 
+#include "mapmatch/map_area.h"
 #include "mapmatch/network_file.h"
 
 namespace maploop::vehicle {
 
 std::shared_ptr<const RoadMap> load_road_map(const MapParameters& parameters) {
   if (parameters.mode == MapMode::none || parameters.file.empty()) return nullptr;
-  return std::make_shared<const RoadMap>(RoadMap{
-      mapmatch::RoadNetwork(mapmatch::open_network(parameters.file), parameters.side_of_road),
-      mapmatch::read_rule_bases(parameters.rules.empty()
-                                    ? mapmatch::default_rules()
-                                    : std::filesystem::path(parameters.rules))});
+  auto rules =
+      mapmatch::read_rule_bases(parameters.rules.empty() ? mapmatch::default_rules()
+                                                         : std::filesystem::path(parameters.rules));
+  std::shared_ptr<const mapmatch::TiledMap> tiles;
+  mapmatch::NetworkData roads;
+  if (mapmatch::is_tiled_map(parameters.file)) {
+    tiles = std::make_shared<const mapmatch::TiledMap>(parameters.file);
+  } else {
+    roads = mapmatch::open_network(parameters.file);
+  }
+  return std::make_shared<const RoadMap>(
+      RoadMap{mapmatch::RoadNetwork(std::move(roads), parameters.side_of_road), std::move(rules),
+              std::move(tiles), parameters.side_of_road});
+}
+
+mapmatch::GeographicBox area_of(const RoadMap& map) {
+  return map.tiles ? map.tiles->area() : mapmatch::area_of(map.network);
+}
+
+std::shared_ptr<const mapmatch::RoadNetwork> network_within(const RoadMap& map,
+                                                            const mapmatch::GeographicBox& box) {
+  if (!map.tiles) return {std::shared_ptr<void>(), &map.network};
+  return std::make_shared<const mapmatch::RoadNetwork>(
+      mapmatch::build_network(map.tiles->read(box)), map.side_of_road);
 }
 
 }  // namespace maploop::vehicle

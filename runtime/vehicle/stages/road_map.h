@@ -4,21 +4,33 @@
 #include <filesystem>
 #include <memory>
 
+#include "mapmatch/geographic_box.h"
 #include "mapmatch/road_network.h"
 #include "mapmatch/rule_bases.h"
+#include "mapmatch/tiled_map.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 
 namespace maploop::vehicle {
 
 // A RoadMap is immutable: any number of vehicles and threads may use it at the same time.
 struct RoadMap {
-  mapmatch::RoadNetwork network;
+  mapmatch::RoadNetwork network;  // of a tiled map: without roads
   mapmatch::RuleBases rules;
+  std::shared_ptr<const mapmatch::TiledMap> tiles{};  // nullptr if `network` holds the whole map
+  RoadSide side_of_road = RoadSide::by_map;
 };
 
-// Loads what [map] of the configuration names: an OpenStreetMap file or a network file, and the
-// user's rules if it names any. Returns nullptr if the mode is none or no file is named. Throws
-// std::runtime_error naming the file that cannot be read.
+// Loads what [map] of the configuration names: an OpenStreetMap file, a network file or a tiled
+// map, and the user's rules if it names any. Returns nullptr if the mode is none or no file is
+// named. Throws std::runtime_error naming the file that cannot be read.
 std::shared_ptr<const RoadMap> load_road_map(const MapParameters& parameters);
+
+// Returns the box, in degrees, that contains the whole map.
+mapmatch::GeographicBox area_of(const RoadMap& map);
+
+// Returns the network, of a tiled map that of the tiles that meet the box. The map must outlive it.
+// Throws std::runtime_error if a tile is damaged.
+std::shared_ptr<const mapmatch::RoadNetwork> network_within(const RoadMap& map,
+                                                            const mapmatch::GeographicBox& box);
 
 }  // namespace maploop::vehicle

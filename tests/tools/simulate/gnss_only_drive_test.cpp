@@ -143,10 +143,10 @@ TEST(GnssOnlyDrive, TheHeightOfTheGroundMakesThatOfCanyonsBetter) {
 TEST(GnssOnlyDrive, WithTheRoadOnOneFrequencyTheCovarianceIsOne) {
   const fs::path drive = gnss_drive(Environment::urban, 1);
   const ppp::GnssFiles files = files_of(drive / "gnss_one_frequency");
-  const mapmatch::RoadNetwork network(mapmatch::open_network(drive.parent_path() / "map.osm"));
-  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
+  vehicle::MapParameters map;
+  map.file = drive.parent_path() / "map.osm";
   gnss::RunOptions options;
-  options.map = gnss::MapOptions{&network, &rules, {}, {}, true};
+  options.map = gnss::MapOptions{vehicle::load_road_map(map), {}, {}, true};
   gnss::PppRun run(files, options);
   int aided = 0, indefinite = 0;
   run.process([&](const ppp::PppSolution& s) {

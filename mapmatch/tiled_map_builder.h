@@ -1,0 +1,28 @@
+// Tiled maps are made here from OpenStreetMap files of any size.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "mapmatch/osm_reader.h"
+
+namespace maploop::mapmatch {
+
+struct TiledMapSummary {
+  std::size_t ways = 0, nodes = 0, restrictions = 0, tiles = 0;
+  std::size_t missing_nodes = 0;  // of roads, that the map lacks: their roads end there
+};
+
+// Writes the drivable roads of a .osm.pbf, .osm or .osm.gz/.bz2 file as a tiled map, as read_osm
+// reads them. It needs about 16 bytes of memory for each node of a road, and 300 MB more; beside
+// the result there is, until it is complete, a file of about its size. `progress` is told the name
+// of each step when it begins, of which there are 4. Throws std::runtime_error, which names the
+// file and the remedy, as read_osm does, or if the result cannot be written.
+TiledMapSummary build_tiled_map(
+    const std::filesystem::path& map, const std::filesystem::path& result,
+    const OsmOptions& options = {},
+    const std::function<void(const std::string& step)>& progress = [](const std::string&) {});
+
+}  // namespace maploop::mapmatch
