@@ -20,7 +20,7 @@
   f(archive) f(bag) f(calibration) f(capture) f(cloud) f(corrections) f(doubts) f(endpoint) \
       f(folders) f(gnss) f(heights) f(image) f(kitti) f(log) f(messages) f(ncom) f(network) \
           f(nmea) f(ntrip) f(osm) f(recording) f(ros) f(rtcm3) f(rules) f(stream) f(tables) \
-              f(toml) f(tracks) f(ubx) f(velodyne) f(xsens)
+              f(tiles) f(toml) f(tracks) f(ubx) f(velodyne) f(xsens)
 #define MAPLOOP_DECLARE(name) \
   extern "C" int fuzz_##name(const std::uint8_t* data, std::size_t size);
 #define MAPLOOP_LIST(name) Target{#name, fuzz_##name},

@@ -1,0 +1,239 @@
+#include "mapmatch/tiled_map.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "mapmatch/map_area.h"
+#include "mapmatch/network_file.h"
+#include "mapmatch/tiled_map_builder.h"
+#include "msgs/archive.h"
+#include "msgs/frames.h"
+#include "tests/support/error_of.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::mapmatch::tiled_map_test {
+namespace {
+
+using maploop::testing::error_of;
+using maploop::testing::real_data;
+using maploop::testing::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::filesystem::path karlsruhe() {
+  return real_data() / "maps" / "karlsruhe_2012-04.osm.pbf";
+}
+
+// An OpenStreetMap file of nodes, each at "LAT LON", and of residential roads through them.
+class OsmFile {
+ public:
+  explicit OsmFile(const std::filesystem::path& folder) : file_(folder / "small.osm") {}
+
+  OsmFile& node(std::int64_t id, double latitude, double longitude) {
+    nodes_ += "<node id=\"" + std::to_string(id) + "\" lat=\"" + std::to_string(latitude) +
+              "\" lon=\"" + std::to_string(longitude) + "\"/>";
+    return *this;
+  }
+  OsmFile& road(std::int64_t id, const std::vector<std::int64_t>& nodes) {
+    ways_ += "<way id=\"" + std::to_string(id) + "\">";
+    for (const std::int64_t n : nodes) ways_ += "<nd ref=\"" + std::to_string(n) + "\"/>";
+    ways_ += "<tag k=\"highway\" v=\"residential\"/></way>";
+    return *this;
+  }
+  OsmFile& ban(std::int64_t from, std::int64_t via, std::int64_t to) {
+    const auto member = [](const char* type, std::int64_t ref, const char* role) {
+      return std::string("<member type=\"") + type + "\" ref=\"" + std::to_string(ref) +
+             "\" role=\"" + role + "\"/>";
+    };
+    relations_ += "<relation id=\"1\">" + member("way", from, "from") + member("node", via, "via") +
+                  member("way", to, "to") +
+                  "<tag k=\"type\" v=\"restriction\"/>"
+                  "<tag k=\"restriction\" v=\"no_left_turn\"/></relation>";
+    return *this;
+  }
+  const std::filesystem::path& write() const {
+    std::ofstream(file_) << "<osm version=\"0.6\">" << nodes_ << ways_ << relations_ << "</osm>";
+    return file_;
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::string nodes_, ways_, relations_;
+};
+
+std::vector<std::int64_t> ways_of(const MapExtract& map) {
+  std::vector<std::int64_t> ways;
+  for (const MapWay& way : map.ways) ways.push_back(way.road.way_id);
+  return ways;
+}
+
+GeographicBox at(double latitude, double longitude) {
+  return {longitude, latitude, longitude, latitude};
+}
+
+TEST(TiledMap, AllTilesTogetherAreTheWholeMap) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  TemporaryFolder folder;
+  const auto tiles = folder.path() / "karlsruhe.tiles";
+  const TiledMapSummary built = build_tiled_map(karlsruhe(), tiles);
+  EXPECT_EQ(built.ways, 1881u);
+  EXPECT_EQ(built.tiles, 12u);
+  const auto bytes = [](const std::filesystem::path& file) {
+    NetworkData network = open_network(file);
+    network.warnings.clear();  // restrictions outside of all tiles are left out of them
+    ArchiveWriter writer;
+    writer(network);
+    return writer.take();
+  };
+  EXPECT_TRUE(bytes(tiles) == bytes(karlsruhe()));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1)
+      << "the work's own files are left behind";
+}
+
+TEST(TiledMap, ABoxHasTheRoadsOfItsTilesWhole) {
+  TemporaryFolder folder;
+  const auto tiles = folder.path() / "a.tiles";
+  build_tiled_map(OsmFile(folder.path())
+                      .node(1, 49.01, 8.41)
+                      .node(2, 49.02, 8.42)
+                      .node(3, 49.02, 8.47)
+                      .node(4, 49.11, 8.41)
+                      .node(5, 49.12, 8.41)
+                      .road(10, {1, 2})
+                      .road(11, {2, 3})
+                      .road(12, {4, 5})
+                      .ban(10, 2, 11)
+                      .ban(12, 4, 12)
+                      .write(),
+                  tiles);
+  const TiledMap map(tiles);
+  EXPECT_THAT(ways_of(map.read(at(49.01, 8.41))), ElementsAre(10, 11));
+  EXPECT_EQ(map.read(at(49.01, 8.41)).nodes.size(), 3u) << "11 is whole";
+  EXPECT_EQ(map.read(at(49.01, 8.41)).restrictions.size(), 1u);
+  EXPECT_THAT(ways_of(map.read(at(49.01, 8.48))), ElementsAre(11));
+  EXPECT_THAT(ways_of(map.read({8.41, 49.01, 8.41, 49.11})), ElementsAre(10, 11, 12));
+  EXPECT_THAT(ways_of(map.read(at(49.5, 8.41))), ElementsAre());
+  EXPECT_NEAR(map.area().south, 49.0, 1e-9);
+  EXPECT_NEAR(map.area().north, 49.15, 1e-9);
+  EXPECT_THAT(error_of([&] { (void)map.read({}, 4); }), HasSubstr("more than 4 nodes"));
+}
+
+TEST(TiledMap, ASegmentIsInTheTilesThatItCrosses) {
+  TemporaryFolder folder;
+  const auto tiles = folder.path() / "a.tiles";
+  build_tiled_map(
+      OsmFile(folder.path()).node(1, 49.01, 8.41).node(2, 49.01, 8.61).road(10, {1, 2}).write(),
+      tiles);
+  EXPECT_THAT(ways_of(TiledMap(tiles).read(at(49.02, 8.52))), ElementsAre(10));
+  EXPECT_EQ(TiledMap(tiles).tiles().size(), 5u);
+}
+
+TEST(TiledMap, ABoxMayContainThe180thMeridian) {
+  TemporaryFolder folder;
+  const auto tiles = folder.path() / "a.tiles";
+  build_tiled_map(OsmFile(folder.path())
+                      .node(1, -17.0, 179.98)
+                      .node(2, -17.0, -179.98)
+                      .node(3, -17.0, 0.0)
+                      .node(4, -17.0, 0.01)
+                      .road(10, {1, 2})
+                      .road(11, {3, 4})
+                      .write(),
+                  tiles);
+  const TiledMap map(tiles);
+  const MapExtract near = map.read(around({radians(-17.0), radians(179.99), 0.0}, 4000.0));
+  EXPECT_THAT(ways_of(near), ElementsAre(10));
+  EXPECT_NEAR(RoadNetwork(build_network(near)).link(0).length, 4258.0, 20.0);
+}
+
+TEST(TiledMap, ANodeThatTheMapLacksCutsItsRoad) {
+  TemporaryFolder folder;
+  const auto tiles = folder.path() / "a.tiles";
+  const auto small = OsmFile(folder.path())
+                         .node(1, 49.01, 8.41)
+                         .node(2, 49.011, 8.41)
+                         .node(4, 49.013, 8.41)
+                         .node(5, 49.014, 8.41)
+                         .road(10, {1, 2, 3, 4, 5})
+                         .road(11, {8, 9})
+                         .write();
+  EXPECT_EQ(build_tiled_map(small, tiles).missing_nodes, 1u);
+  EXPECT_EQ(RoadNetwork(open_network(tiles)).size(), 2u);
+}
+
+TEST(TiledMap, ADamagedTileIsNamedAndTheOthersAreRead) {
+  TemporaryFolder folder;
+  const auto tiles = folder.path() / "a.tiles";
+  build_tiled_map(OsmFile(folder.path())
+                      .node(1, 49.01, 8.41)
+                      .node(2, 49.02, 8.41)
+                      .node(3, 49.11, 8.41)
+                      .node(4, 49.12, 8.41)
+                      .road(10, {1, 2})
+                      .road(11, {3, 4})
+                      .write(),
+                  tiles);
+  {
+    const TileEntry second = TiledMap(tiles).tiles().at(1);
+    std::fstream file(tiles, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(static_cast<std::streamoff>(second.offset + second.size - 1));
+    file.put('x');
+  }
+  const TiledMap map(tiles);
+  EXPECT_THAT(ways_of(map.read(at(49.01, 8.41))), ElementsAre(10));
+  const std::string error = error_of([&] { (void)map.read(at(49.11, 8.41)); });
+  EXPECT_THAT(error, HasSubstr("a.tiles: the tile at 49.1"));
+  EXPECT_THAT(error, HasSubstr("it is damaged: its checksum does not fit"));
+}
+
+TEST(TiledMap, ADamagedCutOrForeignFileIsRefused) {
+  TemporaryFolder folder;
+  const auto tiles = folder.path() / "a.tiles";
+  build_tiled_map(
+      OsmFile(folder.path()).node(1, 49.01, 8.41).node(2, 49.02, 8.41).road(10, {1, 2}).write(),
+      tiles);
+  std::ifstream in(tiles, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  const auto with = [&](const std::string& content) {
+    std::ofstream(tiles, std::ios::binary) << content;
+    return error_of([&] { (void)TiledMap(tiles).read({}); });
+  };
+  EXPECT_EQ(with(whole), "");
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 1);
+    EXPECT_THAT(with(flipped), HasSubstr("a.tiles")) << at;
+    EXPECT_THAT(with(whole.substr(0, at)), HasSubstr("a.tiles")) << at;
+  }
+  EXPECT_FALSE(is_tiled_map(folder.path()));
+  EXPECT_FALSE(is_tiled_map(folder.path() / "small.osm"));
+  EXPECT_THAT(error_of([&] { TiledMap(folder.path() / "none"); }), HasSubstr("none"));
+}
+
+TEST(TiledMap, WhatCannotBeBuiltIsRefusedWithoutAFile) {
+  TemporaryFolder folder;
+  const auto tiles = folder.path() / "a.tiles";
+  const auto error = [&](const std::filesystem::path& map, const OsmOptions& options = {}) {
+    return error_of([&] { build_tiled_map(map, tiles, options); });
+  };
+  EXPECT_THAT(error(folder.path() / "none.osm"), HasSubstr("none.osm: there is no such file"));
+  const auto nodes = OsmFile(folder.path()).node(1, 49.0, 8.4).write();
+  EXPECT_THAT(error(nodes), HasSubstr("it has no roads"));
+  OsmOptions options;
+  options.max_nodes = 1;
+  const auto small =
+      OsmFile(folder.path()).node(1, 49.01, 8.41).node(2, 49.02, 8.41).road(10, {1, 2}).write();
+  EXPECT_THAT(error(small, options), HasSubstr("more than 1 nodes"));
+  options = {.box = GeographicBox{0.0, 0.0, 1.0, 1.0}};
+  EXPECT_THAT(error(small, options), HasSubstr("no roads inside the box"));
+  EXPECT_THAT(error_of([&] { build_tiled_map(small, folder.path() / "no/folder.tiles"); }),
+              HasSubstr("cannot write"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+}  // namespace
+}  // namespace maploop::mapmatch::tiled_map_test
