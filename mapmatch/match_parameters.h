@@ -15,6 +15,7 @@ struct MatchParameters {
   double banned_turn = 3.0;  // -ln P of a banned turn
   double minor_road = 1.0;   // -ln P of a service way, a track or a road that is not public
   double turn_round = 4.0;   // -ln P of a U-turn
+  double lane_sigma = 1.1;   // m
 
   // --- The fixes' errors
   double correlation_time = 30.0;  // s

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "mapmatch/lanes.h"
 #include "msgs/frames.h"
 
 namespace maploop::mapmatch {
@@ -53,7 +54,11 @@ MapMatch& NavMatcher::add(const NavState& state) {
   match_.refusal = result.refusal;
   if (result.refusal != FixRefusal::none) return match_;
   static_cast<LinkMatch&>(match_) = result;
-  if (result.on_road) describe_place(state, result.point);
+  if (result.on_road) {
+    describe_place(state, result.point);
+    match_.lane = lane_on(network(), match_.link, result.point, network().to_local(fix.position),
+                          fix.covariance, matcher_.parameters().lane_sigma);
+  }
   return match_;
 }
 

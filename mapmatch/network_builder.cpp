@@ -176,13 +176,16 @@ class Builder {
     link.start_junction = junction_[node];
     std::tie(link.forward, link.backward) = out_and_in(node, segments_[segment]);
     double along = 0.0;
+    bool along_way = true;
     const auto add_vertex = [&](std::uint32_t at, const Segment& s) {
-      data_.vertices.push_back({place_[at].x(), place_[at].y(), along, map_.nodes[at].id, s.road});
+      data_.vertices.push_back(
+          {place_[at].x(), place_[at].y(), along, map_.nodes[at].id, s.road, along_way});
     };
     while (true) {
       Segment& s = segments_[segment];
       s.used = true;
-      const std::uint32_t next = s.from == node ? s.to : s.from;
+      along_way = s.from == node;
+      const std::uint32_t next = along_way ? s.to : s.from;
       add_vertex(node, s);
       along += std::max(min_segment, (place_[next] - place_[node]).norm());
       node = next;

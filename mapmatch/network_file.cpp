@@ -15,7 +15,7 @@ namespace maploop::mapmatch {
 namespace {
 
 constexpr std::string_view section = "road network";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 // Returns whether a file begins with an archive's signature.
 bool is_archive(const std::filesystem::path& file) {

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kilometres_an_hour = 1.0 / 3.6;
 constexpr double miles_an_hour = 0.44704;
+constexpr double foot = 0.3048;  // m
 constexpr double walking = 7.0 * kilometres_an_hour;
 
 // Returns the number at the start of a text; nothing if the text starts otherwise.
@@ -18,6 +19,10 @@ std::optional<double> leading_number(std::string_view text, std::string_view* re
   if (error != std::errc() || !std::isfinite(value)) return {};
   if (rest) *rest = text.substr(static_cast<std::size_t>(end - text.data()));
   return value;
+}
+
+std::uint8_t parse_lanes(std::string_view text) {
+  return static_cast<std::uint8_t>(std::clamp(leading_number(text).value_or(0.0), 0.0, 20.0));
 }
 
 bool any_of(std::string_view value, std::initializer_list<std::string_view> these) {
@@ -49,6 +54,16 @@ double parse_speed_limit(std::string_view text) {
   return *value * (unit.find("mph") != std::string_view::npos ? miles_an_hour : kilometres_an_hour);
 }
 
+double parse_width(std::string_view text) {
+  std::string_view unit;
+  const auto value = leading_number(text, &unit);
+  if (!value) return 0.0;
+  const bool feet =
+      unit.find("ft") != std::string_view::npos || unit.find('\'') != std::string_view::npos;
+  const double metres = *value * (feet ? foot : 1.0);
+  return metres >= 1.5 && metres <= 100.0 ? metres : 0.0;
+}
+
 std::optional<Road> road_from_tags(std::int64_t way_id, const TagValue& tag) {
   const auto road_class = parse_road_class(tag("highway"));
   if (!road_class || tag("area") == "yes") return {};
@@ -68,8 +83,10 @@ std::optional<Road> road_from_tags(std::int64_t way_id, const TagValue& tag) {
   road.tunnel = is_yes(tag("tunnel"));
   if (const auto layer = leading_number(tag("layer")))
     road.layer = static_cast<std::int8_t>(std::clamp(*layer, -9.0, 9.0));
-  if (const auto lanes = leading_number(tag("lanes")))
-    road.lanes = static_cast<std::uint8_t>(std::clamp(*lanes, 0.0, 20.0));
+  road.lanes = parse_lanes(tag("lanes"));
+  road.lanes_forward = parse_lanes(tag("lanes:forward"));
+  road.lanes_backward = parse_lanes(tag("lanes:backward"));
+  road.width = parse_width(tag("width"));
   road.speed_limit = parse_speed_limit(tag("maxspeed"));
   road.name = tag("name");
   if (road.name.empty()) road.name = tag("ref");

@@ -20,4 +20,8 @@ std::optional<Road> road_from_tags(std::int64_t way_id, const TagValue& tag);
 // "DE:urban").
 double parse_speed_limit(std::string_view text);
 
+// Returns metres for values such as "7.5", "7.5 m" and "20 ft"; 0 if there is no number, or one
+// that is no width of a road.
+double parse_width(std::string_view text);
+
 }  // namespace maploop::mapmatch

@@ -20,6 +20,9 @@ ParameterTable<MatchParameters> parameter_table(const MatchParameters&) {
   constexpr DataChoice trust_slope_choice{"KITTI 01, 06 and 10", "as `trust`", "as `trust`"};
   constexpr DataChoice doubt_slope_choice{"KITTI odometry sequences, all eight",
                                           "the reliability diagram", "the reliability diagram"};
+  constexpr DataChoice lane_sigma_choice{"KITTI odometry sequences, 34 two-way roads",
+                                         "distance from the roads' lines about its mean",
+                                         "P(lane)"};
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"map_sigma", &P::map_sigma, 0.01, 1000.0, "m", usual,
        "Standard deviation per axis of the map: centre lines, lanes and datum. It is constant over "
@@ -42,6 +45,11 @@ ParameterTable<MatchParameters> parameter_table(const MatchParameters&) {
       {"minor_road", &P::minor_road, 0.0, any_weight, "nat", expert,
        "Cost (-ln P) of a service way, a track or a road that is not public."},
       {"turn_round", &P::turn_round, 0.0, any_weight, "nat", expert, "Cost (-ln P) of a U-turn."},
+      {"lane_sigma", &P::lane_sigma, 0.01, 1000.0, "m", expert,
+       "Standard deviation of the vehicle's distance from the middle of its lane, with the error "
+       "of "
+       "the road's line.",
+       lane_sigma_choice},
 
       {"correlation_time", &P::correlation_time, 0.01, long_time, "s", expert,
        "Correlation time of the errors of the fixes."},

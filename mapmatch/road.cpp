@@ -24,13 +24,16 @@ std::optional<RoadClass> parse_road_class(std::string_view highway) {
   return static_cast<RoadClass>(found - names.begin());
 }
 
+double usual_lane_width(const Road& road) {
+  return road.road_class >= RoadClass::unclassified ? 2.75 : 3.25;
+}
+
 double half_width(const Road& road) {
-  const bool slow = road.road_class >= RoadClass::unclassified;
   const bool fast = road.road_class == RoadClass::motorway || road.road_class == RoadClass::trunk;
   const bool one_way = road.forward != road.backward;
   const bool one_lane = one_way ? !fast : road.road_class >= RoadClass::service;
   const int lanes = road.lanes > 0 ? road.lanes : one_lane ? 1 : 2;
-  return 0.5 * lanes * (slow ? 2.75 : 3.25);
+  return 0.5 * lanes * usual_lane_width(road);
 }
 
 }  // namespace maploop::mapmatch

@@ -27,7 +27,8 @@ struct Vertex {
   double along = 0.0;              // m from the link's first vertex
   std::int64_t node_id = 0;        // OpenStreetMap's
   std::uint32_t road =
-      0;  // of the segment that starts here; the last vertex repeats the one before
+      0;                  // of the segment that starts here; the last vertex repeats the one before
+  bool along_way = true;  // whether the way has the segment's nodes in the order of the link
 
   // Returns east and north in m.
   Eigen::Vector2d position() const { return {east, north}; }
@@ -35,7 +36,7 @@ struct Vertex {
 
 template <class Archive>
 void archive(Archive& ar, Vertex& v) {
-  ar(v.east, v.north, v.along, v.node_id, v.road);
+  ar(v.east, v.north, v.along, v.node_id, v.road, v.along_way);
 }
 
 // A Link is the way from one junction to the next, in one or both directions.

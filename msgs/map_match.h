@@ -83,6 +83,16 @@ struct MatchCandidate {
   }
 };
 
+// This is the lane that the vehicle is in, given that it is on the matched road.
+struct LanePosition {
+  std::int32_t lanes = 0;    // in the direction of travel; 0: the map does not tell
+  std::int32_t lane = 0;     // the likeliest one, from 1 on the left to `lanes`; 0: unknown
+  double probability = 0.0;  // P(lane)
+  double offset = 0.0;       // m, of the vehicle from its middle, positive to the right
+
+  void archive(auto& ar) { ar(lanes, lane, probability, offset); }
+};
+
 // This is what the matcher decides about one fix.
 struct LinkMatch {
   static constexpr std::size_t max_candidates = 24;  // further links are left out
@@ -120,13 +130,14 @@ struct MapMatch : Sample, LinkMatch {
   double link_azimuth = 0.0;  // rad, of the link at the matched point, as driven
   double cross_track = 0.0;   // m, of the vehicle from the line, positive to its right
   double half_width = 0.0;    // m, of the carriageway
-  double bend = 0.0;          // rad, change of the road's azimuth from 15 m behind to 15 m ahead
-  double to_junction = 0.0;   // m ahead along the link; the junction behind is `along` metres away
+  LanePosition lane;
+  double bend = 0.0;         // rad, change of the road's azimuth from 15 m behind to 15 m ahead
+  double to_junction = 0.0;  // m ahead along the link; the junction behind is `along` metres away
 
   void archive(auto& ar) {
     ar(static_cast<Sample&>(*this), static_cast<LinkMatch&>(*this), way_id, node_a, node_b, origin,
        vehicle_enu, covariance, vehicle_azimuth, speed, matched_enu, link_azimuth, cross_track,
-       half_width, bend, to_junction);
+       half_width, lane, bend, to_junction);
   }
 };
 

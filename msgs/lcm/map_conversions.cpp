@@ -63,6 +63,10 @@ void convert(auto copy, Is<MapMatch> auto& match, auto& m) {
   copy(match.link_azimuth, m.link_azimuth);
   copy(match.cross_track, m.cross_track);
   copy(match.half_width, m.half_width);
+  copy(match.lane.lanes, m.lanes);
+  copy(match.lane.lane, m.lane);
+  copy(match.lane.probability, m.p_lane);
+  copy(match.lane.offset, m.lane_offset);
   copy(match.bend, m.bend);
   copy(match.along, m.along);
   copy(match.to_junction, m.to_junction);

@@ -112,6 +112,28 @@ TEST(NavMatcher, ToTheLeftOfTheRoadIsNegativeWhicheverWayItIsDriven) {
   EXPECT_NEAR(match.to_junction, 131.0, 1.5);
 }
 
+// The way leads to the south, against the order in which the link is stored.
+TEST(NavMatcher, SaysInWhichLaneTheVehicleIs) {
+  Road road;
+  road.lanes = 3;
+  road.lanes_backward = 2;
+  const RoadNetwork roads =
+      SmallMap().node(1, 0.0, 0.0).node(2, 0.0, 300.0).way(10, {2, 1}, road).network();
+  MatchParameters parameters;
+  parameters.lane_sigma = 0.5;
+  NavMatcher matcher(roads, rules(), parameters);
+  MapMatch match;
+  for (NavState state : drive_north()) {
+    state.covariance(0, 0) = 0.01;
+    match = matcher.add(state);
+  }
+  ASSERT_TRUE(match.on_road);
+  EXPECT_EQ(match.lane.lanes, 2);
+  EXPECT_EQ(match.lane.lane, 2) << "2 m to the right; the middles are at 0 and 2.75 m";
+  EXPECT_NEAR(match.lane.offset, -0.75, 0.02);
+  EXPECT_NEAR(match.lane.probability, 0.99, 0.01);
+}
+
 TEST(NavMatcher, WithoutAPositionThereIsNoLinkAndTheReason) {
   NavMatcher matcher(network(), rules(), {});
   MapMatch match = matcher.add(NavState{});

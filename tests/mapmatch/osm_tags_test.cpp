@@ -59,6 +59,13 @@ TEST(OsmTags, AttributesAndOddValues) {
   EXPECT_EQ(r.name, "B 3");
   EXPECT_EQ(road({{"highway", "road"}, {"layer", "1e99"}})->layer, 9);
   EXPECT_EQ(road({{"highway", "road"}, {"lanes", "-3"}})->lanes, 0);
+  EXPECT_EQ(road({{"highway", "road"}, {"lanes:forward", "2"}})->lanes_forward, 2);
+  EXPECT_EQ(road({{"highway", "road"}, {"lanes:backward", "1"}})->lanes_backward, 1);
+  EXPECT_EQ(road({{"highway", "road"}, {"width", "7.5 m"}})->width, 7.5);
+  EXPECT_NEAR(parse_width("20 ft"), 6.096, 1e-9);
+  EXPECT_NEAR(parse_width("20'"), 6.096, 1e-9);
+  for (const char* no_width : {"", "narrow", "-3", "1000", "nan", "0"})
+    EXPECT_EQ(parse_width(no_width), 0.0) << no_width;
   EXPECT_EQ(parse_speed_limit("none"), 0.0);
   EXPECT_EQ(parse_speed_limit("DE:urban"), 0.0);
   EXPECT_EQ(parse_speed_limit("nan"), 0.0);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "mapmatch/lanes.h"
 #include "mapmatch/reasons.h"
 #include "msgs/frames.h"
 #include "tools/evaluate/text_file.h"
@@ -25,6 +26,14 @@ std::string_view phase_of(const mapmatch::MatchResult& r) {
                                                  : std::string_view("not used");
 }
 
+LanePosition lane_of(const MatchedTrack& track, std::size_t i,
+                     const mapmatch::RoadNetwork& network) {
+  const mapmatch::VehicleFix& fix = track.fixes[i];
+  const mapmatch::MatchResult& r = track.results[i];
+  return mapmatch::lane_on(network, r.link, r.point, network.to_local(fix.position), fix.covariance,
+                           track.lane_sigma);
+}
+
 }  // namespace
 
 std::vector<std::size_t> MatchedTrack::used() const {
@@ -38,23 +47,26 @@ void write_match_csv(const std::filesystem::path& file, const MatchedTrack& trac
                      const mapmatch::RoadNetwork& network) {
   std::string text =
       "t,lat,lon,phase,way_id,node_a,node_b,matched_lat,matched_lon,azimuth_deg,likelihood,p_"
-      "link\n";
+      "link,lanes,lane,p_lane\n";
   for (std::size_t i = 0; i < track.fixes.size(); ++i) {
     const mapmatch::VehicleFix& fix = track.fixes[i];
     const mapmatch::MatchResult& r = track.results[i];
     text += fmt::format("{:.6f},{:.9f},{:.9f},{},", seconds_of(fix), degrees(fix.position.latitude),
                         degrees(fix.position.longitude), phase_of(r));
     if (!on_road(r)) {
-      text += ",,,,,,,\n";
+      text += ",,,,,,,,,,\n";
       continue;
     }
     const auto [a, b] = network.nodes(r.link, r.point.vertex);
     const Geodetic matched = network.to_geodetic(r.point.position);
     const double azimuth = degrees(r.point.azimuth());
-    text += fmt::format("{},{},{},{:.9f},{:.9f},{:.2f},{:.2f},{:.4f}\n",
+    text += fmt::format("{},{},{},{:.9f},{:.9f},{:.2f},{:.2f},{:.4f},",
                         network.road_at(r.point.vertex).way_id, a, b, degrees(matched.latitude),
                         degrees(matched.longitude), azimuth < 0.0 ? azimuth + 360.0 : azimuth,
                         r.likelihood, r.probability);
+    const LanePosition lane = lane_of(track, i, network);
+    text += lane.lanes > 0 ? fmt::format("{},{},{:.4f}\n", lane.lanes, lane.lane, lane.probability)
+                           : ",,\n";
   }
   evaluation::write_text(file, text);
 }
@@ -76,6 +88,11 @@ void write_match_geojson(const std::filesystem::path& file, const MatchedTrack& 
       properties["node_a"] = a;
       properties["node_b"] = b;
       properties["p_link"] = r.probability;
+      if (const LanePosition lane = lane_of(track, i, network); lane.lanes > 0) {
+        properties["lanes"] = lane.lanes;
+        properties["lane"] = lane.lane;
+        properties["p_lane"] = lane.probability;
+      }
     }
     features.push_back(
         {{"type", "Feature"},

@@ -14,8 +14,9 @@ namespace maploop::match {
 
 struct MatchedTrack {
   Track fixes;
-  std::vector<mapmatch::MatchResult> results;  // one for each fix
-  std::string name{};                          // of its file
+  std::vector<mapmatch::MatchResult> results;                  // one for each fix
+  std::string name{};                                          // of its file
+  double lane_sigma = mapmatch::MatchParameters{}.lane_sigma;  // m, as the parameter says
 
   // Returns the seconds from the first fix to this one.
   double second(std::size_t fix) const { return to_seconds(fixes[fix].stamp - fixes[0].stamp); }
@@ -24,9 +25,10 @@ struct MatchedTrack {
 };
 
 // Writes
-// t,lat,lon,phase,way_id,node_a,node_b,matched_lat,matched_lon,azimuth_deg,likelihood,p_link, one
-// line for each fix; ids are empty if it is not on a road. All writers throw std::runtime_error
-// naming the file.
+// t,lat,lon,phase,way_id,node_a,node_b,matched_lat,matched_lon,azimuth_deg,likelihood,p_link,lanes,
+// lane,p_lane, one line for each fix; ids are empty if it is not on a road, and lanes, which are
+// those of the direction of travel, from 1 on the left, if the map does not tell. All writers throw
+// std::runtime_error naming the file.
 void write_match_csv(const std::filesystem::path& file, const MatchedTrack& track,
                      const mapmatch::RoadNetwork& network);
 // Writes the fixes as points with their links and reasons, and the matched positions as a line.

@@ -64,7 +64,7 @@ void refuse_equal_names(std::span<const std::filesystem::path> files) {
 
 MatchedTrack TrackMatching::match(Track fixes, std::string name,
                                   std::vector<double>* microseconds) const {
-  MatchedTrack track{std::move(fixes), {}, std::move(name)};
+  MatchedTrack track{std::move(fixes), {}, std::move(name), parameters.lane_sigma};
   mapmatch::Matcher matcher(network, rules, parameters);
   mapmatch::MatchHistory history(network);
   track.results.reserve(track.fixes.size());

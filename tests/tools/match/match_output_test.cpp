@@ -62,12 +62,14 @@ TEST_F(MatchOutput, CsvHasOneRowAFixAndEmptyIdsWhereThereIsNoRoad) {
   ASSERT_EQ(rows.size(), track.fixes.size() + 1);
   EXPECT_EQ(rows[0],
             "t,lat,lon,phase,way_id,node_a,node_b,matched_lat,matched_lon,azimuth_deg,likelihood,"
-            "p_link");
-  for (const std::string& row : rows) EXPECT_EQ(std::count(row.begin(), row.end(), ','), 11) << row;
+            "p_link,lanes,lane,p_lane");
+  for (const std::string& row : rows) EXPECT_EQ(std::count(row.begin(), row.end(), ','), 14) << row;
   EXPECT_THAT(rows[5], HasSubstr(",along link,10,1,2,"));
   EXPECT_THAT(rows[15], HasSubstr(",along link,10,2,3,"));
   EXPECT_THAT(rows[rows.size() - 2], HasSubstr(",not used,,,,,,,,"));
-  EXPECT_THAT(rows.back(), ::testing::EndsWith(",,,,,,,"));
+  EXPECT_THAT(rows.back(), ::testing::EndsWith(",,,,,,,,,,"));
+  EXPECT_THAT(rows[5], ::testing::EndsWith(",,,")) << "the map tells no lanes";
+
 }
 
 TEST_F(MatchOutput, GeoJsonAndGpxHoldTheMatchedPositions) {
