@@ -35,7 +35,7 @@ match::Track MatchInputOptions::track(const std::filesystem::path& file) const {
 void add_map_argument(CLI::App& command, MatchInputOptions& options) {
   command
       .add_option("MAP", options.map,
-                  "OpenStreetMap file, or a network file of `maploop map build`")
+                  "OpenStreetMap file, or network file or tiled map of `maploop map build`")
       ->required();
 }
 

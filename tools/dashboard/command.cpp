@@ -166,7 +166,7 @@ void add_dashboard(CLI::App& app, Command& command) {
       ->needs(foxglove)
       ->allow_extra_args(false);
   sub->add_option("--map", options->map,
-                  "OpenStreetMap file, or a network file: draw its roads under the way")
+                  "OpenStreetMap file, network file or tiled map: draw its roads under the way")
       ->check(existing_file());
   sub->add_option("--seconds", options->seconds, "End after this long; without it at Ctrl-C")
       ->check(positive_number());

@@ -196,8 +196,8 @@ void add_map(CLI::App& app, Command& command) {
 
   add_map_doubts(*map, command);
 
-  sub = map->add_subcommand("info", "What a map or network file has");
-  add_input(sub, "OpenStreetMap file, or a network file of `maploop map build`");
+  sub = map->add_subcommand("info", "What a map has");
+  add_input(sub, "OpenStreetMap file, or network file or tiled map of `maploop map build`");
   sub->add_option("--json", options->json, "Write it to this file as JSON, too")
       ->check(writable_file());
   sub->callback([options, &command] { command = [options] { return info(*options); }; });

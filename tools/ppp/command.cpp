@@ -244,7 +244,7 @@ void add_ppp(CLI::App& app, Command& command) {
                   "Leave out epochs, as maploop replay does: START:LENGTH[,...] in seconds")
       ->check(vehicle::check_outages, "OUTAGES");
   sub->add_option("--map", options->map,
-                  "OpenStreetMap file, or a network file of `maploop map build`")
+                  "OpenStreetMap file, or network file or tiled map of `maploop map build`")
       ->check(existing_file());
   add_choice(sub, "--map-mode", options->map_mode,
              "none; loose, the default where there is a map: matched, and nothing fed back; "

@@ -168,8 +168,8 @@ ParameterTable<MapParameters> parameter_table(const MapParameters&) {
   using P = MapParameters;
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"file", &P::file, usual,
-       "OpenStreetMap file (.osm.pbf, .osm) or network file of maploop map build; the path starts "
-       "from this file's folder. Empty: no map."},
+       "OpenStreetMap file (.osm.pbf, .osm), or network file or tiled map of maploop map build; the "
+       "path starts from this file's folder. Empty: no map."},
       {"mode", one_of<&P::mode>, usual,
        "\"none\": no matching; \"loose\": matched, nothing is fed back; \"tight\": the road "
        "corrects the filter; \"hard-reset\": position and azimuth become the matched ones."},
