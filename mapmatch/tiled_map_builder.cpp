@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "mapmatch/osm_objects.h"
-#include "mapmatch/tiled_map.h"
+#include "mapmatch/tiled_map_format.h"
 #include "msgs/archive.h"
 
 namespace maploop::mapmatch {

@@ -130,9 +130,9 @@ struct MapMatch : Sample, LinkMatch {
   double link_azimuth = 0.0;  // rad, of the link at the matched point, as driven
   double cross_track = 0.0;   // m, of the vehicle from the line, positive to its right
   double half_width = 0.0;    // m, of the carriageway
-  LanePosition lane;
-  double bend = 0.0;         // rad, change of the road's azimuth from 15 m behind to 15 m ahead
-  double to_junction = 0.0;  // m ahead along the link; the junction behind is `along` metres away
+  LanePosition lane;          // given that the link is right
+  double bend = 0.0;          // rad, change of the road's azimuth from 15 m behind to 15 m ahead
+  double to_junction = 0.0;   // m ahead along the link; the junction behind is `along` metres away
 
   void archive(auto& ar) {
     ar(static_cast<Sample&>(*this), static_cast<LinkMatch&>(*this), way_id, node_a, node_b, origin,

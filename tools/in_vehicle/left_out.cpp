@@ -11,9 +11,10 @@
 namespace maploop {
 
 mapmatch::MapExtract mapmatch::read_osm(const std::filesystem::path& file, const OsmOptions&) {
-  throw std::runtime_error("'" + file.string() +
-                           "' is not a network file, which is the one kind of map that a vehicle "
-                           "reads; 'maploop map build' makes one");
+  throw std::runtime_error(
+      "'" + file.string() +
+      "' is neither a network file nor a tiled map, which are the kinds of map "
+      "that a vehicle reads; 'maploop map build' makes them");
 }
 
 namespace sensors {

@@ -43,7 +43,7 @@ TEST_F(InVehicleOnDrive, RefusesAMapThatIsNoNetworkFile) {
   const ProcessResult process =
       run_in_vehicle({"replay", drive(), "--no-lcm", "--map", write("town.osm", "<osm/>")});
   EXPECT_EQ(process.status, 1);
-  EXPECT_THAT(process.error, HasSubstr("'maploop map build' makes one"));
+  EXPECT_THAT(process.error, HasSubstr("'maploop map build' makes them"));
 }
 
 TEST_F(InVehicleOnDrive, TakesLessThan200Megabytes) {

@@ -1,0 +1,96 @@
+// These are the parts of the file of a tiled map.
+//
+// A tile is 0.05 degrees wide and high, and holds every way that touches it, whole. Ways of several
+// tiles are in each of them. The file consists of archives (msgs/archive.h), each with its own
+// checksum: a head, the tiles, and the table that tells where each tile is.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "mapmatch/network_builder.h"
+
+namespace maploop::mapmatch {
+
+constexpr double tile_size = 0.05;  // degrees
+
+// Tells which tile it is.
+struct TilePlace {
+  std::int32_t row = 0;     // from 90 degrees south to the north
+  std::int32_t column = 0;  // from 180 degrees west to the east
+
+  auto operator<=>(const TilePlace&) const = default;
+};
+
+// Returns the tile that contains a place (degrees).
+TilePlace tile_at(double latitude, double longitude);
+
+// This is a node of a way in a tile.
+struct TiledNode {
+  static constexpr std::int32_t nowhere = std::numeric_limits<std::int32_t>::max();
+
+  std::int64_t id = 0;              // OpenStreetMap's
+  std::int32_t latitude = nowhere;  // 1e-7 degrees; `nowhere`: the map lacks this node
+  std::int32_t longitude = 0;       // 1e-7 degrees
+
+  void archive(auto& ar) { ar(id, latitude, longitude); }
+};
+
+struct TiledWay {
+  Road road;
+  std::vector<TiledNode> nodes;
+
+  void archive(auto& ar) { ar(road, nodes); }
+};
+
+struct Tile {
+  static constexpr std::string_view section = "map tile";
+  static constexpr std::uint32_t version = 1;
+
+  std::vector<TiledWay> ways;
+  std::vector<MapRestriction> restrictions;  // over a node in this tile
+
+  void archive(auto& ar) {
+    ar.section(section, version);
+    ar(ways, restrictions);
+  }
+};
+
+// Tells where in the file a tile is.
+struct TileEntry {
+  TilePlace place;
+  std::uint64_t offset = 0, size = 0;  // bytes
+
+  void archive(auto& ar) { ar(place.row, place.column, offset, size); }
+};
+
+struct TileTable {
+  static constexpr std::string_view section = "table of tiles";
+  static constexpr std::uint32_t version = 1;
+
+  std::vector<TileEntry> tiles;  // by place
+  std::uint64_t restrictions_over_ways = 0;
+
+  void archive(auto& ar) {
+    ar.section(section, version);
+    ar(tiles, restrictions_over_ways);
+  }
+};
+
+// This is the first content of the file; it always has the same size.
+struct TiledMapHead {
+  static constexpr std::string_view section = "tiled map";
+  static constexpr std::uint32_t version = 1;
+
+  std::uint64_t table_offset = 0, table_size = 0;  // bytes
+
+  void archive(auto& ar) {
+    ar.section(section, version);
+    ar(table_offset, table_size);
+  }
+};
+
+}  // namespace maploop::mapmatch
