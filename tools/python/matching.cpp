@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mapmatch/lanes.h"
 #include "mapmatch/matcher.h"
 #include "mapmatch/network_file.h"
 #include "runtime/vehicle/config/vehicle_config.h"
@@ -73,9 +74,12 @@ struct MatchRecord {
   double east, north, latitude, longitude;
   double azimuth;
   double likelihood, probability, margin, off_road;
+  std::int32_t lanes, lane;  // 0: the map does not tell
+  double lane_probability;
 };
 
-MatchRecord record_of(const mapmatch::MatchResult& m, const RoadNetwork& network) {
+MatchRecord record_of(const mapmatch::MatchResult& m, const VehicleFix& fix,
+                      const RoadNetwork& network, double lane_sigma) {
   MatchRecord r{};
   r.stamp = to_nanoseconds(m.stamp);
   r.refusal = static_cast<std::uint8_t>(m.refusal);
@@ -101,6 +105,11 @@ MatchRecord record_of(const mapmatch::MatchResult& m, const RoadNetwork& network
   r.likelihood = m.likelihood;
   r.probability = m.probability;
   r.margin = m.margin;
+  const LanePosition lane = mapmatch::lane_on(
+      network, m.link, m.point, network.to_local(fix.position), fix.covariance, lane_sigma);
+  r.lanes = lane.lanes;
+  r.lane = lane.lane;
+  r.lane_probability = lane.probability;
   return r;
 }
 
@@ -119,8 +128,11 @@ class PythonMatcher {
     const auto rows = records.unchecked<1>();
     return array_of(alone(mutex_, [&] {
       std::vector<MatchRecord> matches;
-      for (py::ssize_t i = 0; i < rows.shape(0); ++i)
-        matches.push_back(record_of(matcher_.add(fix_of(rows(i))), *network_));
+      for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
+        const VehicleFix fix = fix_of(rows(i));
+        matches.push_back(
+            record_of(matcher_.add(fix), fix, *network_, matcher_.parameters().lane_sigma));
+      }
       return matches;
     }));
   }
@@ -171,7 +183,7 @@ void add_dtypes(py::module_& module) {
                        azimuth, azimuth_sigma, yaw_rate, hdop, visual_speed, visual_azimuth);
   PYBIND11_NUMPY_DTYPE(MatchRecord, stamp, refusal, phase, on_road, link, forward, way_id, node_a,
                        node_b, along, east, north, latitude, longitude, azimuth, likelihood,
-                       probability, margin, off_road);
+                       probability, margin, off_road, lanes, lane, lane_probability);
   module.attr("fix_dtype") = py::dtype::of<FixRecord>();
   module.attr("match_dtype") = py::dtype::of<MatchRecord>();
   module.attr("MATCH_PHASE") = names_tuple<MatchPhase>();

@@ -163,12 +163,29 @@ ParameterTable<PppConfig> parameter_table(const PppConfig&) {
           table};
 }
 
+ParameterTable<OverloadParameters> parameter_table(const OverloadParameters&) {
+  using enum Audience;
+  using P = OverloadParameters;
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"shed", one_of<&P::shed>, usual,
+       "What a live vehicle uses less of when odometry does not keep its deadlines: "
+       "\"scans-first\": of scans every second point, then every second image pair; "
+       "\"images-first\": the reverse; \"nothing\": samples are lost."},
+      {"shed_at", &P::shed_at, 0.01, 10.0, "1", expert,
+       "Share of its deadline above which a step of odometry takes too long."},
+      {"restore_at", &P::restore_at, 0.0, 10.0, "1", expert,
+       "Share of its deadline below which there is room for more."},
+  });
+  return {"overload", "What is left out when the computer is too slow.", table};
+}
+
 ParameterTable<MapParameters> parameter_table(const MapParameters&) {
   using enum Audience;
   using P = MapParameters;
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"file", &P::file, usual,
-       "OpenStreetMap file (.osm.pbf, .osm), or network file or tiled map of maploop map build; the "
+       "OpenStreetMap file (.osm.pbf, .osm), or network file or tiled map of maploop map build; "
+       "the "
        "path starts from this file's folder. Empty: no map."},
       {"mode", one_of<&P::mode>, usual,
        "\"none\": no matching; \"loose\": matched, nothing is fed back; \"tight\": the road "

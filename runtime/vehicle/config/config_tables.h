@@ -19,6 +19,7 @@ ParameterTable<VehicleConfig> gnss_outage_table();   // of a key of [gnss]
 ParameterTable<VehicleConfig> vehicle_file_table();  // of a key of [vehicle]
 ParameterTable<VehicleConfig> imu_table();           // [imu]
 ParameterTable<PreviewParameters> parameter_table(const PreviewParameters&);
+ParameterTable<OverloadParameters> parameter_table(const OverloadParameters&);
 ParameterTable<LiveParameters> parameter_table(const LiveParameters&);
 ParameterTable<PppConfig> parameter_table(const PppConfig&);
 ParameterTable<MapParameters> parameter_table(const MapParameters&);
@@ -30,7 +31,7 @@ template <class Config, class Part>
 void each_part(Config& config, Part&& part) {
   const auto described = [&](auto&... values) { (part(parameter_table(values), values), ...); };
   part(top_level_table(), config);
-  described(config.memory, config.trace, config.preview);
+  described(config.memory, config.trace, config.preview, config.overload);
   part(vehicle_file_table(), config);
   each_table(part, config.vehicle);
   described(config.replay, config.bag, config.odometry_poses, config.live, config.gnss);

@@ -24,6 +24,7 @@
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/config/live_config.h"
 #include "runtime/vehicle/config/scheduling_config.h"
+#include "runtime/vehicle/health/load_shedding.h"
 #include "sensors/bag/bag_parameters.h"
 #include "sensors/imu/mount_alignment.h"
 #include "sensors/replay/error_model.h"
@@ -90,6 +91,7 @@ struct VehicleConfig {
   runtime::MemoryParameters memory;
   runtime::TraceParameters trace;
   PreviewParameters preview;
+  OverloadParameters overload;
   std::string vehicle_file;
   VehicleDescription vehicle;
   sensors::KittiDriveParameters replay;

@@ -22,6 +22,7 @@ void GraphStage::measure(Time stamp, Time available, MonotonicTime released, Mon
   const bool missed =
       meter_.worked({stamp, released, started, ended, cuts_.held_up(released, busy)},
                     clock.keeps_time(available));
+  if (load_) load_->worked(to_seconds(ended - released) / to_seconds(spec_.deadline));
   if (missed) runtime::trace_instant(trace_, "missed deadline");
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -23,6 +24,7 @@
 #include "runtime/vehicle/graph/stage_cuts.h"
 #include "runtime/vehicle/graph/stage_specs.h"
 #include "runtime/vehicle/health/episodes.h"
+#include "runtime/vehicle/health/load_shedding.h"
 #include "runtime/vehicle/health/thread_meter.h"
 
 namespace maploop::vehicle {
@@ -48,6 +50,7 @@ class GraphStage {
   // Before run().
   void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }
   void slow_down(StageDelay delay) { delay_ = std::move(delay); }
+  void tell_load(std::shared_ptr<LoadShedding> load) { load_ = std::move(load); }
   void save_at(SnapshotMoments moments, runtime::Edge<StageSnapshot>& ring) {
     cuts_.set(std::move(moments), ring);
   }
@@ -119,6 +122,7 @@ class GraphStage {
   std::vector<runtime::EdgeBase*> outputs_;
   ThreadMeter meter_;
   StageDelay delay_;
+  std::shared_ptr<LoadShedding> load_;  // nullptr: nothing is shed
   StageCuts cuts_;
   runtime::TraceBuffer* trace_ = nullptr;
 };

@@ -12,6 +12,7 @@
 #include "runtime/vehicle/drivers/prefetched_source.h"
 #include "runtime/vehicle/drivers/replay_driver.h"
 #include "runtime/vehicle/drivers/sensor_delays.h"
+#include "runtime/vehicle/drivers/shedding_source.h"
 #include "runtime/vehicle/stages/lidar_stage.h"
 #include "runtime/vehicle/stages/mapmatch_stage.h"
 #include "runtime/vehicle/stages/ppp_stage.h"
@@ -98,6 +99,12 @@ fusion::GuardParameters guard_of(const VehicleConfig& config) {
   if (config.map.mode == MapMode::hard_reset)
     parameters.difference_gate = std::numeric_limits<double>::infinity();
   return parameters;
+}
+
+template <class T>
+std::unique_ptr<sensors::LiveSource<T>> shedding(std::unique_ptr<sensors::LiveSource<T>> source,
+                                                 std::shared_ptr<const LoadShedding> load) {
+  return std::make_unique<SheddingSource<T>>(std::move(source), std::move(load));
 }
 
 }  // namespace
@@ -188,6 +195,12 @@ void Vehicle::Graph::make_drivers(Sensors& s) {
   leave_out_leaps(s);
   LiveSensors none;
   LiveSensors& live = s.live ? *s.live : none;
+  if (s.live) {
+    load = std::make_shared<LoadShedding>(config.overload, live.velodyne != nullptr,
+                                          live.camera != nullptr);
+    if (live.camera) live.camera = shedding(std::move(live.camera), load);
+    if (live.velodyne) live.velodyne = shedding(std::move(live.velodyne), load);
+  }
   add_driver<StereoPair>(
       stages::camera, prefetched(stages::camera, stages::stereo, std::move(s.camera)),
       std::move(live.camera), rings.outputs(rings::camera_publisher, rings::camera_stereo));
@@ -232,11 +245,13 @@ void Vehicle::Graph::make_stages(const VehicleCalibration& calibration,
   if (rings.has(stages::stereo)) {
     auto& stereo =
         add_stage<StereoStage>(stereo::StereoOdometry(calibration.stereo, config.stereo));
+    stereo.tell_load(load);
     if (preview) stereo.show_to(preview->image());
   }
   if (rings.has(stages::lidar)) {
     auto& lidar = add_stage<LidarStage>(
         lidar::VisualLidarOdometer(calibration.T_body_velo, config.lidar), delays_of(config));
+    lidar.tell_load(load);
     if (preview) lidar.show_to(preview->scan(), static_cast<std::size_t>(config.preview.points));
   }
   if (rings.has(stages::ppp))

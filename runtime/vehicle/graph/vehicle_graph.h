@@ -97,6 +97,7 @@ struct Vehicle::Graph {
   std::unique_ptr<SnapshotStage> snapshots;
   std::shared_ptr<const RoadMap> map;  // nullptr: no map
   const std::shared_ptr<NetworksInUse> networks = std::make_shared<NetworksInUse>();
+  std::shared_ptr<LoadShedding> load;                    // of live sensors; nullptr: a replay
   std::shared_ptr<const sensors::HostClock> host_clock;  // of live sensors; nullptr: a replay
 
   // In the order of the declaration.

@@ -57,6 +57,8 @@ void Vehicle::Graph::look_at_sensors(Health& health) {
     std::string degraded = stage->degraded();
     if (!degraded.empty()) health.degraded.push_back(std::move(degraded));
   }
+  if (std::string shed = load->sentence(); !shed.empty())
+    health.degraded.push_back(std::move(shed));
   constexpr Duration disciplined = milliseconds(10);  // a clock that is only steered stays within
   if (const Duration step = host_clock->step(); std::chrono::abs(step) > disciplined) {
     health.degraded.push_back(fmt::format(

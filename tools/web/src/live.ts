@@ -58,6 +58,9 @@ export interface MapMatch {
   matched_enu: number[];
   vehicle_enu: number[];
   cross_track: number;
+  lanes: number;
+  lane: number;
+  p_lane: number;
   candidates: Candidate[];
 }
 

@@ -59,7 +59,8 @@ export function showRoad(panel: HTMLElement, m: MapMatch): void {
   });
   table(panel, ["link", "P", "rules", "against it"], rows);
   const p = document.createElement("p");
-  p.textContent = `${phases[m.phase] ?? ""}: ${m.explanation}`;
+  const lane = m.on_road && m.lanes > 0 ? `; lane ${m.lane} of ${m.lanes}, P ${m.p_lane.toFixed(2)}` : "";
+  p.textContent = `${phases[m.phase] ?? ""}: ${m.explanation}${lane}`;
   panel.prepend(p);
 }
 

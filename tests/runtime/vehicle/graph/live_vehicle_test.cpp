@@ -143,7 +143,7 @@ TEST(LiveVehicle, NoStampMovesWhenTheMachinesClockIsSet) {
   for (const RingHealth& ring : report.health.rings) EXPECT_EQ(ring.lost, 0u) << ring.name;
 }
 
-TEST(LiveVehicle, AStageThatIsTooSlowLosesItsOwnSamplesAlone) {
+TEST(LiveVehicle, AStageThatIsTooSlowLosesItsOwnSamplesAloneAndShedsLoad) {
   LiveSensors live = live_sensors();
   live.velodyne = std::make_unique<FakeLiveSource<LidarScan>>(
       *live.clock, milliseconds(20), [](LidarScan& scan) { scan.points.assign(100, {}); });
@@ -158,6 +158,7 @@ TEST(LiveVehicle, AStageThatIsTooSlowLosesItsOwnSamplesAlone) {
   }
   EXPECT_EQ(report.stalls, 0u);
   EXPECT_GT(bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE").size(), 50u);
+  EXPECT_THAT(report.health.degraded, Contains(HasSubstr("overload: only one of")));
 }
 
 TEST(LiveVehicle, GoesOnThroughUnpluggingAndAFloodOfGarbage) {
