@@ -11,14 +11,21 @@ struct LaneCounts {
 
 // Returns the lanes of each direction; none if they are not known.
 LaneCounts lane_counts(const Road& road) {
-  if (!road.backward) return {road.lanes, 0};
-  if (!road.forward) return {0, road.lanes};
-  int forward = road.lanes_forward, backward = road.lanes_backward;
-  if (forward == 0 && backward == 0 && road.lanes % 2 == 0) forward = backward = road.lanes / 2;
-  if (forward == 0 && road.lanes > backward) forward = road.lanes - backward;
-  if (backward == 0 && road.lanes > forward) backward = road.lanes - forward;
-  const bool whole = road.lanes == 0 || forward + backward == road.lanes;
-  return whole && forward > 0 && backward > 0 ? LaneCounts{forward, backward} : LaneCounts{};
+  const bool two_way = road.forward && road.backward;
+  const int all = road.lanes;
+  LaneCounts counts{road.lanes_forward, road.lanes_backward};
+  if (two_way && counts.forward == 0 && counts.backward == 0) {
+    if (all % 2 != 0) return {};
+    counts = {all / 2, all / 2};
+  } else if (all > 0) {
+    // A one-way road may have lanes of buses against it, which are tagged.
+    if (counts.forward == 0 && road.forward) counts.forward = all - counts.backward;
+    if (counts.backward == 0 && road.backward) counts.backward = all - counts.forward;
+    if (counts.forward + counts.backward != all) return {};
+  }
+  const bool known =
+      (!road.forward || counts.forward > 0) && (!road.backward || counts.backward > 0);
+  return known ? counts : LaneCounts{};
 }
 
 }  // namespace
@@ -27,7 +34,7 @@ Lanes lanes_of(const Road& road, bool forward, bool left_hand_traffic) {
   const LaneCounts counts = lane_counts(road);
   const int own = forward ? counts.forward : counts.backward;
   const int opposite = forward ? counts.backward : counts.forward;
-  if (own == 0) return {};
+  if (own == 0 || !(forward ? road.forward : road.backward)) return {};
   const int all = own + opposite;
   const double width = road.width > 0.0 ? road.width : all * usual_lane_width(road);
   Lanes lanes{own, width / all, -0.5 * width};

@@ -27,6 +27,9 @@ class NavMatcher {
   // Takes visual odometry in the order of its stamps, for the rules that use it.
   void add(const RelativeMotion& visual) { course_.add(visual); }
 
+  // Takes over the visual odometry that another matcher has taken, which is the same on all roads.
+  void take_course(const NavMatcher& before) { course_ = before.course_; }
+
   // Takes states in the order of their stamps. If a state cannot be used, `refusal` states why and
   // the result has no link. The caller sets `available` and `sequence`. The result is valid until
   // the next call.

@@ -57,7 +57,8 @@ NetworkData load_network(const std::filesystem::path& file) {
 
 NetworkData open_network(const std::filesystem::path& file, const OsmOptions& options) {
   if (is_tiled_map(file))
-    return build_network(TiledMap(file).read(options.box.value_or(GeographicBox{})));
+    return build_network(
+        TiledMap(file).read(options.box.value_or(GeographicBox{}), options.max_nodes));
   return is_archive(file) ? load_network(file) : build_network(read_osm(file, options));
 }
 

@@ -44,6 +44,11 @@ void read_map_file(const std::filesystem::path& file,
   }
 }
 
+bool inside(const GeographicBox& box, const osmium::Location& place) {
+  return place.lon() >= box.west && place.lon() <= box.east && place.lat() >= box.south &&
+         place.lat() <= box.north;
+}
+
 std::optional<MapWay> road_of(const osmium::Way& way) {
   const osmium::TagList& tags = sound_tags(way);
   const auto road = road_from_tags(

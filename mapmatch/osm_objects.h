@@ -6,9 +6,11 @@
 #include <functional>
 #include <optional>
 #include <osmium/io/file.hpp>
+#include <osmium/osm/location.hpp>
 #include <osmium/osm/relation.hpp>
 #include <osmium/osm/way.hpp>
 
+#include "mapmatch/geographic_box.h"
 #include "mapmatch/network_builder.h"
 
 namespace maploop::mapmatch {
@@ -17,6 +19,9 @@ namespace maploop::mapmatch {
 // is missing, not a map or damaged, or if `read` throws.
 void read_map_file(const std::filesystem::path& file,
                    const std::function<void(const osmium::io::File&)>& read);
+
+// Returns whether a place is in the box.
+bool inside(const GeographicBox& box, const osmium::Location& place);
 
 // Returns the road with the ids of all its nodes, or nothing if cars cannot drive on this way.
 // Throws std::runtime_error if a tag is damaged.

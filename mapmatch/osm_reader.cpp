@@ -15,10 +15,6 @@ namespace {
 
 constexpr double not_placed = 1000.0;  // degrees
 
-bool inside(const GeographicBox& box, const osmium::Location& l) {
-  return l.lon() >= box.west && l.lon() <= box.east && l.lat() >= box.south && l.lat() <= box.north;
-}
-
 bool by_id(const MapNode& a, const MapNode& b) {
   return a.id < b.id;
 }

@@ -1,9 +1,12 @@
 #include "mapmatch/tiled_map.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
-#include <array>
+#include <cerrno>
 #include <cmath>
-#include <fstream>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -17,7 +20,7 @@ namespace maploop::mapmatch {
 namespace {
 
 constexpr std::int32_t rows = 3600, columns = 7200;  // of the Earth
-constexpr double coordinate = 1e7;                   // of a degree
+constexpr std::uint64_t most_bytes = 1ULL << 50U;    // of a file
 // What has these many bytes is sealed, with a section.
 const std::size_t head_size = [] {
   ArchiveWriter writer;
@@ -25,23 +28,43 @@ const std::size_t head_size = [] {
   return seal(writer.content()).size();
 }();
 
+ArchiveError unreadable() {
+  return ArchiveError(std::string("it cannot be read: ") + std::strerror(errno));
+}
+
 // Reads a sealed value from a part of a file.
 template <class T>
-T read_part(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t size) {
-  if (size > input_limits::road_network) throw ArchiveError("its size is damaged");
-  std::ifstream in(file, std::ios::binary);
-  in.seekg(0, std::ios::end);
-  const auto length = static_cast<std::uint64_t>(std::max<std::streamoff>(in.tellg(), 0));
-  if (!in || offset > length || size > length - offset) throw ArchiveError("the file is cut");
+T read_part(int file, std::uint64_t offset, std::uint64_t size) {
+  if (size > input_limits::map_tile) throw ArchiveError("its size is damaged");
   Bytes sealed(size);
-  in.seekg(static_cast<std::streamoff>(offset));
-  in.read(reinterpret_cast<char*>(sealed.data()), static_cast<std::streamsize>(size));
-  if (!in) throw ArchiveError("it cannot be read");
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t got =
+        pread(file, sealed.data() + done, size - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw unreadable();
+    if (got == 0) throw ArchiveError("the file is cut");
+    done += static_cast<std::size_t>(got);
+  }
   ArchiveReader reader(unseal(sealed));
   T value;
   reader(value);
   reader.finish();
   return value;
+}
+
+void check(const TileTable& table) {
+  const TileEntry* last = nullptr;
+  for (const TileEntry& entry : table.tiles) {
+    const TilePlace& place = entry.place;
+    if (place.row < 0 || place.row >= rows || place.column < 0 || place.column >= columns)
+      throw ArchiveError("a tile is not on the Earth");
+    if (entry.size > input_limits::map_tile || entry.offset > most_bytes)
+      throw ArchiveError("the size of a tile is damaged");
+    if (last != nullptr && (!(last->place < place) || entry.offset < last->offset + last->size))
+      throw ArchiveError("its tiles are not in order");
+    last = &entry;
+  }
 }
 
 GeographicBox box_of(const TilePlace& place) {
@@ -56,13 +79,15 @@ std::string to_text(const TilePlace& place) {
 
 // Sorts by a key and keeps the first of those that are equal.
 template <class T, class Key>
-void sort_once(std::vector<T>& values, Key key) {
+void keep_once(std::vector<T>& values, Key key) {
   std::stable_sort(values.begin(), values.end(),
                    [&](const T& a, const T& b) { return key(a) < key(b); });
   values.erase(std::unique(values.begin(), values.end(),
                            [&](const T& a, const T& b) { return key(a) == key(b); }),
                values.end());
 }
+
+}  // namespace
 
 void append(MapExtract& map, const Tile& tile) {
   for (const TiledWay& tiled : tile.ways) {
@@ -71,7 +96,8 @@ void append(MapExtract& map, const Tile& tile) {
     for (const TiledNode& n : tiled.nodes) {
       way.nodes.push_back(n.id);
       if (n.latitude != TiledNode::nowhere)
-        map.nodes.push_back({n.id, n.latitude / coordinate, n.longitude / coordinate});
+        map.nodes.push_back(
+            {n.id, n.latitude / TiledNode::per_degree, n.longitude / TiledNode::per_degree});
     }
     map.ways.push_back(std::move(way));
   }
@@ -79,11 +105,18 @@ void append(MapExtract& map, const Tile& tile) {
                           tile.restrictions.end());
 }
 
-}  // namespace
+void sort_once(MapExtract& map) {
+  keep_once(map.nodes, [](const MapNode& n) { return n.id; });
+  keep_once(map.ways, [](const MapWay& w) { return w.road.way_id; });
+  keep_once(map.restrictions, [](const MapRestriction& r) {
+    return std::tuple(r.via_node, r.from_way, r.to_way, r.only);
+  });
+}
 
 TilePlace tile_at(double latitude, double longitude) {
   const auto number = [](double from_corner, std::int32_t count) {
-    return std::clamp(static_cast<std::int32_t>(std::floor(from_corner / tile_size)), 0, count - 1);
+    const double tile = std::floor(from_corner / tile_size);
+    return tile > 0.0 ? static_cast<std::int32_t>(std::min(tile, count - 1.0)) : 0;
   };
   return {number(latitude + 90.0, rows), number(longitude + 180.0, columns)};
 }
@@ -94,49 +127,74 @@ bool is_tiled_map(const std::filesystem::path& file) {
   return head.find(TiledMapHead::section) != std::string::npos && head.starts_with("maploop\n");
 }
 
+std::set<TilePlace> tiles_within(const GeographicBox& box) {
+  const TilePlace low = tile_at(box.south, box.west), high = tile_at(box.north, box.east);
+  std::set<TilePlace> tiles;
+  for (std::int32_t row = low.row; row <= high.row; ++row) {
+    for (std::int32_t column = low.column;; column = (column + 1) % columns) {
+      tiles.insert({row, column});
+      if (column == high.column) break;
+    }
+  }
+  return tiles;
+}
+
 TiledMap::TiledMap(std::filesystem::path file) : file_(std::move(file)) {
   try {
-    const auto head = read_part<TiledMapHead>(file_, 0, head_size);
-    table_ = read_part<TileTable>(file_, head.table_offset, head.table_size);
-    const auto by_place = [](const TileEntry& a, const TileEntry& b) { return a.place < b.place; };
-    if (!std::is_sorted(table_.tiles.begin(), table_.tiles.end(), by_place))
-      throw ArchiveError("its tiles are not in order");
+    const int opened = open(file_.c_str(), O_RDONLY | O_CLOEXEC);
+    if (opened < 0) throw unreadable();
+    descriptor_ = std::shared_ptr<const int>(new int(opened), [](const int* descriptor) {
+      close(*descriptor);
+      delete descriptor;
+    });
+    const auto head = read_part<TiledMapHead>(*descriptor_, 0, head_size);
+    if (head.table_offset > most_bytes) throw ArchiveError("the place of its table is damaged");
+    table_ = read_part<TileTable>(*descriptor_, head.table_offset, head.table_size);
+    check(table_);
   } catch (const std::exception& e) {
     throw std::runtime_error("cannot read the tiled map " + file_.string() + ": " + e.what());
   }
 }
 
 MapExtract TiledMap::read(const GeographicBox& box, std::size_t max_nodes) const {
+  const bool whole =
+      box.west <= -180.0 && box.east >= 180.0 && box.south <= -90.0 && box.north >= 90.0;
+  if (!whole) return read(tiles_within(box), max_nodes);
+  std::set<TilePlace> all;
+  for (const TileEntry& entry : table_.tiles) all.insert(all.end(), entry.place);
+  return read(all, max_nodes);
+}
+
+MapExtract TiledMap::read(const std::set<TilePlace>& tiles, std::size_t max_nodes) const {
   MapExtract map;
-  map.restrictions_over_ways = table_.restrictions_over_ways;
-  const TilePlace low = tile_at(box.south, box.west), high = tile_at(box.north, box.east);
-  const auto meets = [&](std::int32_t column) {
-    return low.column <= high.column ? column >= low.column && column <= high.column
-                                     : column >= low.column || column <= high.column;
-  };
-  const auto first = std::lower_bound(
-      table_.tiles.begin(), table_.tiles.end(), low.row,
-      [](const TileEntry& entry, std::int32_t row) { return entry.place.row < row; });
-  for (auto entry = first; entry != table_.tiles.end() && entry->place.row <= high.row; ++entry) {
-    if (!meets(entry->place.column)) continue;
+  std::size_t nodes = 0;  // of all ways; one of several tiles counts in each
+  for (const TilePlace& place : tiles) {
+    const auto entry =
+        std::lower_bound(table_.tiles.begin(), table_.tiles.end(), place,
+                         [](const TileEntry& e, const TilePlace& p) { return e.place < p; });
+    if (entry == table_.tiles.end() || entry->place != place) continue;
     try {
-      append(map, read_part<Tile>(file_, entry->offset, entry->size));
+      const auto tile = read_part<Tile>(*descriptor_, entry->offset, entry->size);
+      if (tile.place != place) throw ArchiveError("another tile is in its place");
+      for (const TiledWay& way : tile.ways) nodes += way.nodes.size();
+      nodes += tile.ways.size() + tile.restrictions.size();
+      if (nodes <= max_nodes) append(map, tile);
     } catch (const std::exception& e) {
       throw std::runtime_error("cannot read the tiled map " + file_.string() + ": " +
-                               to_text(entry->place) + ": " + e.what() + "; build the map again");
+                               to_text(place) + ": " + e.what() + "; build the map again");
     }
-    if (map.nodes.size() > max_nodes) {
+    if (nodes > max_nodes) {
       throw std::runtime_error("cannot read the tiled map " + file_.string() +
                                ": the part has more than " + std::to_string(max_nodes) +
                                " nodes; select a smaller part with a box");
     }
   }
-  sort_once(map.nodes, [](const MapNode& n) { return n.id; });
-  sort_once(map.ways, [](const MapWay& w) { return w.road.way_id; });
-  sort_once(map.restrictions, [](const MapRestriction& r) {
-    return std::tuple(r.via_node, r.from_way, r.to_way, r.only);
-  });
+  sort_once(map);
   return map;
+}
+
+RoadSide TiledMap::side_of_road() const {
+  return table_.to_right > table_.to_left ? RoadSide::left : RoadSide::right;
 }
 
 GeographicBox TiledMap::area() const {

@@ -5,36 +5,46 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <vector>
+#include <memory>
+#include <set>
 
 #include "mapmatch/geographic_box.h"
 #include "mapmatch/network_builder.h"
 #include "mapmatch/tiled_map_format.h"
+#include "msgs/road_side.h"
 
 namespace maploop::mapmatch {
 
 // Returns whether the file begins as a tiled map.
 bool is_tiled_map(const std::filesystem::path& file);
 
-// A tiled map reads its tiles when they are asked for, and keeps none. Any number of threads may
-// use it at the same time.
+// Returns the tiles that meet a box. A box whose west is greater than its east contains the 180th
+// meridian.
+std::set<TilePlace> tiles_within(const GeographicBox& box);
+
+// A tiled map reads its tiles when they are asked for, and keeps none; the file stays open, so that
+// another one may take its name. Any number of threads may use it at the same time.
 class TiledMap {
  public:
   // Reads head and table. Throws std::runtime_error, which names the file and the error.
   explicit TiledMap(std::filesystem::path file);
 
-  // Returns the roads of all tiles that meet the box; none if the map has none there. A box whose
-  // west is greater than its east contains the 180th meridian. Throws std::runtime_error, which
-  // names the file and the damaged tile, or if the tiles have more than `max_nodes` nodes.
-  MapExtract read(const GeographicBox& box, std::size_t max_nodes = 50'000'000) const;
+  // Returns the roads of these tiles; none if the map has none there. Throws std::runtime_error,
+  // which names the file and the damaged tile, or if their ways have more than `max_nodes` nodes.
+  MapExtract read(const std::set<TilePlace>& tiles, std::size_t max_nodes = 50'000'000) const;
+  // Does the same for all tiles that meet the box; the default box is the whole map.
+  MapExtract read(const GeographicBox& box = {}, std::size_t max_nodes = 50'000'000) const;
 
   // Returns the box around all tiles, degrees.
   GeographicBox area() const;
-  // Returns where the tiles are, by place.
-  const std::vector<TileEntry>& tiles() const { return table_.tiles; }
+  // Returns the side of the traffic in most places of the map where it can be seen.
+  RoadSide side_of_road() const;
+  // Returns where the tiles are, and what they hold together.
+  const TileTable& table() const { return table_; }
 
  private:
   std::filesystem::path file_;
+  std::shared_ptr<const int> descriptor_;
   TileTable table_;
 };
 

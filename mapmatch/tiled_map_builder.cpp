@@ -11,20 +11,22 @@
 #include <osmium/visitor.hpp>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "mapmatch/osm_objects.h"
+#include "mapmatch/road_network.h"
 #include "mapmatch/tiled_map_format.h"
 #include "msgs/archive.h"
 
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double coordinate = 1e7;                // of a degree
 constexpr std::size_t ids_at_once = 1 << 24;      // 128 MB
 constexpr std::size_t nodes_in_memory = 1 << 22;  // of ways that wait to be written
-constexpr std::int32_t longest_segment = 20;      // tiles, of which all are found on its way
+constexpr std::int32_t longest_segment =
+    20;  // tiles; a longer one is only in the tiles of its ends
 
 // Holds the nodes of all roads: first their ids, then their places.
 class RoadNodes {
@@ -45,7 +47,8 @@ class RoadNodes {
   // Files list nodes by their ids, so the next one is near the last.
   void place(std::int64_t id, const osmium::Location& location) {
     if (next_ == ids_.size() || id < ids_[next_]) next_ = index(id, 0, ids_.size());
-    while (next_ < ids_.size() && ids_[next_] < id) ++next_;
+    for (int i = 0; i < few && next_ < ids_.size() && ids_[next_] < id; ++i) ++next_;
+    if (next_ < ids_.size() && ids_[next_] < id) next_ = index(id, next_, ids_.size());
     if (next_ < ids_.size() && ids_[next_] == id) places_[next_] = {location.y(), location.x()};
   }
 
@@ -58,6 +61,8 @@ class RoadNodes {
   std::size_t size() const { return ids_.size(); }
 
  private:
+  static constexpr int few = 16;  // steps that cost less than a search
+
   struct Place {
     std::int32_t latitude = TiledNode::nowhere, longitude = 0;
   };
@@ -148,22 +153,24 @@ class TileCollector {
 
   std::size_t size() const { return tiles_.size(); }
 
-  // Writes the whole file.
-  void write(const std::filesystem::path& result, std::uint64_t restrictions_over_ways) {
+  // Writes the whole file; `table` holds what is known of all tiles.
+  void write(const std::filesystem::path& result, TileTable table) {
     put_away();
     waiting_.flush();
+    require_written();
     std::ofstream out(result, std::ios::binary);
     std::uint64_t offset = 0;
     const auto append = [&](const Bytes& bytes) {
       out.write(reinterpret_cast<const char*>(bytes.data()),
                 static_cast<std::streamsize>(bytes.size()));
       offset += bytes.size();
+      if (!out) throw cannot_write(result);
     };
     append(sealed(TiledMapHead{}));
-    TileTable table;
-    table.restrictions_over_ways = restrictions_over_ways;
-    for (const auto& [place, tile] : tiles_) {
-      const Bytes bytes = sealed(brought_back(tile));
+    for (const auto& [place, collected] : tiles_) {
+      const Tile tile = brought_back(place, collected);
+      count_carriageways(tile, table);
+      const Bytes bytes = sealed(tile);
       table.tiles.push_back({place, offset, bytes.size()});
       append(bytes);
     }
@@ -172,7 +179,7 @@ class TileCollector {
     out.seekp(0);
     append(sealed(head));
     out.flush();
-    if (!out || !waiting_) throw cannot_write(result);
+    if (!out) throw cannot_write(result);
   }
 
  private:
@@ -185,7 +192,7 @@ class TileCollector {
   };
 
   static TilePlace place_of(const TiledNode& node) {
-    return tile_at(node.latitude / coordinate, node.longitude / coordinate);
+    return tile_at(node.latitude / TiledNode::per_degree, node.longitude / TiledNode::per_degree);
   }
 
   // Adds all tiles of the box around two nodes. Those of a segment that is too long or crosses the
@@ -203,6 +210,19 @@ class TileCollector {
         places.insert({row, column});
   }
 
+  static void count_carriageways(const Tile& tile, TileTable& table) {
+    MapExtract map;
+    mapmatch::append(map, tile);
+    sort_once(map);
+    const RoadNetwork network(build_network(map));
+    table.to_left += network.one_way_checks().to_left;
+    table.to_right += network.one_way_checks().to_right;
+  }
+
+  void require_written() const {
+    if (!waiting_) throw cannot_write(scratch_.file());
+  }
+
   void put_away() {
     for (auto& [place, tile] : tiles_) {
       if (tile.content.ways.empty() && tile.content.restrictions.empty()) continue;
@@ -213,20 +233,24 @@ class TileCollector {
       end_ += writer.content().size();
       waiting_.write(reinterpret_cast<const char*>(writer.content().data()),
                      static_cast<std::streamsize>(writer.content().size()));
+      require_written();
     }
     in_memory_ = 0;
   }
 
-  Tile brought_back(const Collected& tile) {
+  Tile brought_back(const TilePlace& place, const Collected& tile) {
     Tile whole;
+    whole.place = place;
     for (const Piece& piece : tile.pieces) {
       Bytes bytes(piece.size);
       waiting_.seekg(static_cast<std::streamoff>(piece.offset));
       waiting_.read(reinterpret_cast<char*>(bytes.data()),
                     static_cast<std::streamsize>(bytes.size()));
+      if (!waiting_) throw std::runtime_error("cannot read " + scratch_.file().string() + " back");
       Tile part;
       ArchiveReader reader(bytes);
       reader(part);
+      reader.finish();
       std::move(part.ways.begin(), part.ways.end(), std::back_inserter(whole.ways));
       whole.restrictions.insert(whole.restrictions.end(), part.restrictions.begin(),
                                 part.restrictions.end());
@@ -251,11 +275,6 @@ void each(const osmium::io::File& file, bits kinds, Visit visit) {
   reader.close();
 }
 
-bool inside(const std::optional<GeographicBox>& box, const osmium::Location& l) {
-  return !box || (l.lon() >= box->west && l.lon() <= box->east && l.lat() >= box->south &&
-                  l.lat() <= box->north);
-}
-
 }  // namespace
 
 TiledMapSummary build_tiled_map(const std::filesystem::path& map,
@@ -264,7 +283,7 @@ TiledMapSummary build_tiled_map(const std::filesystem::path& map,
   TiledMapSummary summary;
   const Scratch unfinished(result.string() + ".unfinished");
   TileCollector tiles(result.string() + ".waiting");
-  std::uint64_t over_ways = 0;
+  TileTable table;
   read_map_file(map, [&](const osmium::io::File& file) {
     RoadNodes nodes(options.max_nodes);
     progress("which nodes roads have");
@@ -276,7 +295,8 @@ TiledMapSummary build_tiled_map(const std::filesystem::path& map,
     progress("where these nodes are");
     each(file, osmium::osm_entity_bits::node, [&](const osmium::OSMObject& object) {
       const osmium::Location location = static_cast<const osmium::Node&>(object).location();
-      if (location.valid() && inside(options.box, location)) nodes.place(object.id(), location);
+      if (location.valid() && inside(options.box.value_or(GeographicBox{}), location))
+        nodes.place(object.id(), location);
     });
     progress("which tiles roads are in");
     each(file, osmium::osm_entity_bits::way | osmium::osm_entity_bits::relation,
@@ -284,7 +304,7 @@ TiledMapSummary build_tiled_map(const std::filesystem::path& map,
            if (object.type() == osmium::item_type::relation) {
              const auto found = restriction_of(static_cast<const osmium::Relation&>(object));
              if (!found) return;
-             over_ways += found->over_a_way ? 1 : 0;
+             table.restrictions_over_ways += found->over_a_way ? 1 : 0;
              if (!found->usable()) return;
              const TiledNode via = nodes.node(found->restriction.via_node);
              if (via.latitude == TiledNode::nowhere) return;
@@ -311,7 +331,10 @@ TiledMapSummary build_tiled_map(const std::filesystem::path& map,
       throw std::runtime_error(options.box ? "it has no roads inside the box" : "it has no roads");
   });
   progress("writing the tiles");
-  tiles.write(unfinished.file(), over_ways);
+  table.ways = summary.ways;
+  table.nodes = summary.nodes;
+  table.restrictions = summary.restrictions;
+  tiles.write(unfinished.file(), std::move(table));
   std::filesystem::rename(unfinished.file(), result);
   return summary;
 }

@@ -12,7 +12,8 @@ namespace maploop::mapmatch {
 
 struct TiledMapSummary {
   std::size_t ways = 0, nodes = 0, restrictions = 0, tiles = 0;
-  std::size_t missing_nodes = 0;  // of roads, that the map lacks: their roads end there
+  // Nodes of roads that the map, or the box, lacks: their roads end there.
+  std::size_t missing_nodes = 0;
 };
 
 // Writes the drivable roads of a .osm.pbf, .osm or .osm.gz/.bz2 file as a tiled map, as read_osm

@@ -32,9 +32,11 @@ TilePlace tile_at(double latitude, double longitude);
 struct TiledNode {
   static constexpr std::int32_t nowhere = std::numeric_limits<std::int32_t>::max();
 
+  static constexpr double per_degree = 1e7;  // of latitude and longitude
+
   std::int64_t id = 0;              // OpenStreetMap's
-  std::int32_t latitude = nowhere;  // 1e-7 degrees; `nowhere`: the map lacks this node
-  std::int32_t longitude = 0;       // 1e-7 degrees
+  std::int32_t latitude = nowhere;  // `nowhere`: the map lacks this node
+  std::int32_t longitude = 0;
 
   void archive(auto& ar) { ar(id, latitude, longitude); }
 };
@@ -50,14 +52,20 @@ struct Tile {
   static constexpr std::string_view section = "map tile";
   static constexpr std::uint32_t version = 1;
 
+  TilePlace place;
   std::vector<TiledWay> ways;
   std::vector<MapRestriction> restrictions;  // over a node in this tile
 
   void archive(auto& ar) {
     ar.section(section, version);
-    ar(ways, restrictions);
+    ar(place.row, place.column, ways, restrictions);
   }
 };
+
+// Adds the roads of a tile, whose nodes may be there already.
+void append(MapExtract& map, const Tile& tile);
+// Sorts nodes, ways and restrictions, and keeps each of them once.
+void sort_once(MapExtract& map);
 
 // Tells where in the file a tile is.
 struct TileEntry {
@@ -71,12 +79,14 @@ struct TileTable {
   static constexpr std::string_view section = "table of tiles";
   static constexpr std::uint32_t version = 1;
 
-  std::vector<TileEntry> tiles;  // by place
-  std::uint64_t restrictions_over_ways = 0;
+  std::vector<TileEntry> tiles;  // by place, and in this order in the file
+  std::uint64_t ways = 0, nodes = 0, restrictions = 0, restrictions_over_ways = 0;
+  // Links with an opposite carriageway on this side (one_way_check.h), of all tiles.
+  std::uint64_t to_left = 0, to_right = 0;
 
   void archive(auto& ar) {
     ar.section(section, version);
-    ar(tiles, restrictions_over_ways);
+    ar(tiles, ways, nodes, restrictions, restrictions_over_ways, to_left, to_right);
   }
 };
 

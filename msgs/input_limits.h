@@ -24,6 +24,7 @@ constexpr std::size_t chunk = 256 * mebibyte;       // of a bag, or one message;
 constexpr std::size_t height_tile = 32 * mebibyte;  // SRTM1 has 26 MB
 constexpr std::size_t geoid_grid = 256 * mebibyte;  // EGM96 every 15 minutes has 4 MB
 constexpr std::size_t gnss_file = 2048 * mebibyte;  // a day of a receiver at 10 Hz
+constexpr std::size_t map_tile = 64 * mebibyte;
 constexpr std::size_t road_network = 4096 * mebibyte;
 constexpr std::size_t unpacked_bag = 65536 * mebibyte;  // a whole one, inflated on the disk
 

@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Bytes table = content;
   if (!is_table) {
     mapmatch::TileTable one;
-    one.tiles.push_back({mapmatch::tile_at(49.0, 8.4), after_head, content.size()});
+    one.tiles.push_back({mapmatch::tile_at(49.01, 8.41), after_head, content.size()});
     table = sealed(one);
     file.insert(file.end(), table.begin(), table.end());
   }
@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const mapmatch::TiledMap map(written.path());
     (void)map.area();
-    const mapmatch::RoadNetwork network(mapmatch::build_network(map.read({})));
+    const mapmatch::RoadNetwork network(mapmatch::build_network(map.read()));
     for (std::uint32_t i = 0; i < network.size(); ++i) (void)network.at({i, true}, 1.0);
   } catch (const std::exception&) {
   }

@@ -27,6 +27,14 @@ TEST(Lanes, OfAOneWayRoadLieAboutItsLine) {
   EXPECT_DOUBLE_EQ(lanes.middle(2), 0.0);
   EXPECT_DOUBLE_EQ(lanes.middle(3), 3.25);
   EXPECT_EQ(lanes_of(one_way(3), false, false).count, 0) << "nobody drives there";
+  Road with_buses_against = one_way(3);
+  with_buses_against.lanes_backward = 1;
+  EXPECT_EQ(lanes_of(with_buses_against, true, false).count, 2);
+  EXPECT_DOUBLE_EQ(lanes_of(with_buses_against, true, false).middle(1), 0.0);
+  EXPECT_EQ(lanes_of(with_buses_against, false, false).count, 0);
+  Road by_direction = one_way(0);
+  by_direction.lanes_forward = 2;
+  EXPECT_EQ(lanes_of(by_direction, true, false).count, 2);
 }
 
 TEST(Lanes, OfATwoWayRoadAreOnTheSideOfTheTraffic) {

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -119,7 +121,8 @@ TEST(TiledMap, ABoxHasTheRoadsOfItsTilesWhole) {
   EXPECT_THAT(ways_of(map.read(at(49.5, 8.41))), ElementsAre());
   EXPECT_NEAR(map.area().south, 49.0, 1e-9);
   EXPECT_NEAR(map.area().north, 49.15, 1e-9);
-  EXPECT_THAT(error_of([&] { (void)map.read({}, 4); }), HasSubstr("more than 4 nodes"));
+  EXPECT_THAT(error_of([&] { (void)map.read(GeographicBox{}, 4); }),
+              HasSubstr("more than 4 nodes"));
 }
 
 TEST(TiledMap, ASegmentIsInTheTilesThatItCrosses) {
@@ -129,7 +132,7 @@ TEST(TiledMap, ASegmentIsInTheTilesThatItCrosses) {
       OsmFile(folder.path()).node(1, 49.01, 8.41).node(2, 49.01, 8.61).road(10, {1, 2}).write(),
       tiles);
   EXPECT_THAT(ways_of(TiledMap(tiles).read(at(49.02, 8.52))), ElementsAre(10));
-  EXPECT_EQ(TiledMap(tiles).tiles().size(), 5u);
+  EXPECT_EQ(TiledMap(tiles).table().tiles.size(), 5u);
 }
 
 TEST(TiledMap, ABoxMayContainThe180thMeridian) {
@@ -148,6 +151,41 @@ TEST(TiledMap, ABoxMayContainThe180thMeridian) {
   const MapExtract near = map.read(around({radians(-17.0), radians(179.99), 0.0}, 4000.0));
   EXPECT_THAT(ways_of(near), ElementsAre(10));
   EXPECT_NEAR(RoadNetwork(build_network(near)).link(0).length, 4258.0, 20.0);
+}
+
+TEST(TiledMap, APlaceOutsideOfTheEarthIsInATileOfItsEdge) {
+  EXPECT_EQ(tile_at(1e300, -1e300), (TilePlace{3599, 0}));
+  EXPECT_EQ(tile_at(-91.0, 180.0), (TilePlace{0, 7199}));
+  EXPECT_EQ(tile_at(std::nan(""), std::nan("")), (TilePlace{0, 0}));
+}
+
+TEST(TiledMap, ATableThatNobodyWroteIsRefused) {
+  TemporaryFolder folder;
+  const auto file = folder.path() / "a.tiles";
+  const auto error = [&](const std::vector<TileEntry>& tiles) {
+    const auto sealed = [](const auto& value) {
+      ArchiveWriter writer;
+      writer(value);
+      return seal(writer.content());
+    };
+    TileTable table;
+    table.tiles = tiles;
+    const Bytes content = sealed(table);
+    std::ofstream out(file, std::ios::binary);
+    const Bytes head = sealed(TiledMapHead{sealed(TiledMapHead{}).size(), content.size()});
+    for (const Bytes& part : {head, content})
+      out.write(reinterpret_cast<const char*>(part.data()),
+                static_cast<std::streamsize>(part.size()));
+    out.close();
+    return error_of([&] { (void)TiledMap(file).area(); });
+  };
+  constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
+  EXPECT_EQ(error({{{1, 1}, 100, 10}, {{1, 2}, 110, 10}}), "");
+  EXPECT_THAT(error({{{most, 1}, 100, 10}}), HasSubstr("a tile is not on the Earth"));
+  EXPECT_THAT(error({{{1, -1}, 100, 10}}), HasSubstr("a tile is not on the Earth"));
+  EXPECT_THAT(error({{{1, 1}, 100, 10}, {{1, 1}, 110, 10}}), HasSubstr("not in order"));
+  EXPECT_THAT(error({{{1, 1}, 100, 10}, {{1, 2}, 105, 10}}), HasSubstr("not in order"));
+  EXPECT_THAT(error({{{1, 1}, 100, std::uint64_t{1} << 40U}}), HasSubstr("size of a tile"));
 }
 
 TEST(TiledMap, ANodeThatTheMapLacksCutsItsRoad) {
@@ -178,7 +216,7 @@ TEST(TiledMap, ADamagedTileIsNamedAndTheOthersAreRead) {
                       .write(),
                   tiles);
   {
-    const TileEntry second = TiledMap(tiles).tiles().at(1);
+    const TileEntry second = TiledMap(tiles).table().tiles.at(1);
     std::fstream file(tiles, std::ios::binary | std::ios::in | std::ios::out);
     file.seekp(static_cast<std::streamoff>(second.offset + second.size - 1));
     file.put('x');
@@ -200,7 +238,7 @@ TEST(TiledMap, ADamagedCutOrForeignFileIsRefused) {
   const std::string whole{std::istreambuf_iterator<char>(in), {}};
   const auto with = [&](const std::string& content) {
     std::ofstream(tiles, std::ios::binary) << content;
-    return error_of([&] { (void)TiledMap(tiles).read({}); });
+    return error_of([&] { (void)TiledMap(tiles).read(); });
   };
   EXPECT_EQ(with(whole), "");
   for (std::size_t at = 0; at < whole.size(); ++at) {

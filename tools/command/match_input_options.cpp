@@ -1,5 +1,7 @@
 #include "tools/command/match_input_options.h"
 
+#include <set>
+
 #include "mapmatch/map_area.h"
 #include "mapmatch/network_file.h"
 #include "mapmatch/tiled_map.h"
@@ -12,15 +14,21 @@ namespace maploop::tools {
 mapmatch::RoadNetwork MatchInputOptions::network(
     const std::vector<std::filesystem::path>& tracks) const {
   constexpr double margin = 1000.0;  // m about each fix
-  mapmatch::OsmOptions osm;
-  if (!box.empty()) {
-    osm.box = {box[0], box[1], box[2], box[3]};
-  } else if (mapmatch::is_tiled_map(map)) {
-    osm.box = mapmatch::no_area;
-    for (const auto& file : tracks)
-      for (const mapmatch::VehicleFix& fix : track(file))
-        osm.box = joined(*osm.box, mapmatch::around(fix.position, margin));
+  if (mapmatch::is_tiled_map(map)) {
+    const mapmatch::TiledMap tiled(map);
+    std::set<mapmatch::TilePlace> tiles;
+    if (!box.empty()) {
+      tiles = mapmatch::tiles_within({box[0], box[1], box[2], box[3]});
+    } else {
+      for (const auto& file : tracks)
+        for (const mapmatch::VehicleFix& fix : track(file))
+          tiles.merge(mapmatch::tiles_within(mapmatch::around(fix.position, margin)));
+    }
+    return mapmatch::RoadNetwork(mapmatch::build_network(tiled.read(tiles)),
+                                 side_of_road.value_or(tiled.side_of_road()));
   }
+  mapmatch::OsmOptions osm;
+  if (!box.empty()) osm.box = {box[0], box[1], box[2], box[3]};
   return mapmatch::RoadNetwork(mapmatch::open_network(map, osm),
                                side_of_road.value_or(RoadSide::by_map));
 }

@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "mapmatch/map_area.h"
 #include "mapmatch/network_file.h"
+#include "mapmatch/tiled_map.h"
 #include "mapmatch/tiled_map_builder.h"
 #include "msgs/frames.h"
 #include "msgs/time.h"
@@ -133,7 +135,7 @@ int build_tiles(const MapOptions& options) {
       "wrote {}, {} bytes\n",
       built.ways, built.nodes, built.tiles, built.restrictions, options.output.string(),
       std::filesystem::file_size(options.output));
-  if (built.missing_nodes > 0) {
+  if (built.missing_nodes > 0 && options.box.empty()) {
     std::cout << fmt::format(
         "note: {} nodes of roads are missing in the map: their roads end there\n",
         built.missing_nodes);
@@ -151,7 +153,31 @@ int build(const MapOptions& options) {
   return 0;
 }
 
+int tiled_info(const MapOptions& options) {
+  const mapmatch::TiledMap map(options.input);
+  const mapmatch::TileTable& table = map.table();
+  std::cout << fmt::format(
+      "tiled map: {} ways with {} nodes in {} tiles, {} turn restrictions; {}\n"
+      "traffic keeps to the {}: {} links have an opposite carriageway to the left, {} to the "
+      "right\n",
+      table.ways, table.nodes, table.tiles.size(), table.restrictions,
+      mapmatch::to_text(map.area()), to_string(map.side_of_road()), table.to_left, table.to_right);
+  if (table.restrictions_over_ways > 0) {
+    std::cout << fmt::format("note: {} turn restrictions via a way are left out\n",
+                             table.restrictions_over_ways);
+  }
+  if (options.json.empty()) return 0;
+  write_json_file(options.json, {{"tiles", table.tiles.size()},
+                                 {"ways", table.ways},
+                                 {"vertices", table.nodes},
+                                 {"turn_restrictions", table.restrictions},
+                                 {"opposite_carriageways_to_left", table.to_left},
+                                 {"opposite_carriageways_to_right", table.to_right}});
+  return 0;
+}
+
 int info(const MapOptions& options) {
+  if (options.box.empty() && mapmatch::is_tiled_map(options.input)) return tiled_info(options);
   const OpenedNetwork opened = open(options);
   nlohmann::json described = describe(opened.network);
   print(described, opened.milliseconds);

@@ -1,5 +1,7 @@
 #include "tools/ppp/map_loop.h"
 
+#include <stdexcept>
+
 #include "mapmatch/ppp_fix.h"
 #include "ppp/epoch_state.h"
 
@@ -24,7 +26,11 @@ MapStep MapLoop::close(ppp::MapAidedFilter& filter) {
   if (state_.status == PppStatus::none) return step;
   state_.stamp = ppp::to_utc(filter.solution().time);
   const mapmatch::VehicleFix fix = mapmatch::fix_of(state_);
-  if (window_.follow(fix.position)) begin_matching();
+  if (window_.follow(fix.position)) {
+    if (const auto failures = window_.failures(); failures.count > 0)
+      throw std::runtime_error(failures.last);
+    begin_matching();
+  }
   const mapmatch::MatchResult& match = matcher_->add(fix);
   if (match.on_road && match.refusal == FixRefusal::none) {
     step.way_id = matcher_->network().road_at(match.point.vertex).way_id;

@@ -167,12 +167,12 @@ ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report
 std::shared_ptr<const mapmatch::RoadNetwork> roads_about(const RunPass& pass,
                                                          const vehicle::RoadMap& map) {
   constexpr double margin = 1000.0;  // m
-  mapmatch::GeographicBox box = mapmatch::no_area;
+  std::set<mapmatch::TilePlace> tiles;
   for (const NavState& state : pass.track.states()) {
     const Geodetic place = LocalFrame(state.origin).to_geodetic(state.position_enu);
-    box = mapmatch::joined(box, mapmatch::around(place, margin));
+    tiles.merge(mapmatch::tiles_within(mapmatch::around(place, margin)));
   }
-  return vehicle::network_within(map, box);
+  return vehicle::network_of(map, tiles);
 }
 
 void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,

@@ -1,10 +1,11 @@
 // A map window holds the roads near the vehicle, and moves with it over a tiled map.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
 
 #include "msgs/archive.h"
 #include "msgs/local_frame.h"
@@ -13,10 +14,11 @@
 
 namespace maploop::vehicle {
 
-// The window reaches at least 4 km to each side of its middle. When the vehicle is 2 km away from
-// it, a thread without priority begins to read the roads about the vehicle; at 2.5 km they replace
-// those before. So only the positions decide what happens when, and never how long the reading
-// takes; follow() waits for it if it must. A window of a map that is not tiled never changes.
+// The window has the size that the map tells. When the vehicle is so far from its middle, a thread
+// without priority begins to read the roads about the vehicle, which later replace those before. So
+// only the positions decide what happens when, and never how long the reading takes; follow() waits
+// for it if it must. If they cannot be read there are no roads, and the next try is 500 m on. A
+// window of a map that is not tiled never changes.
 //
 // Not thread-safe, but for failures(). Allocates when it begins to read.
 class MapWindow {
@@ -29,8 +31,12 @@ class MapWindow {
   bool follow(const Geodetic& place);
   bool moves() const { return map_->tiles != nullptr; }
 
-  // Returns how often roads could not be read because a tile is damaged; there are none then.
-  std::uint64_t failures() const { return failures_.load(std::memory_order_relaxed); }
+  // Tells how often roads could not be read, and why the last time.
+  struct Failures {
+    std::uint64_t count = 0;
+    std::string last;
+  };
+  Failures failures() const;
 
   // Archives which window it is. Loading reads its roads again.
   template <class Archive>
@@ -39,7 +45,7 @@ class MapWindow {
     bool known = middle_.has_value();
     bool begun = reading_ != nullptr;
     Geodetic next = begun ? reading_->middle : Geodetic{};
-    std::uint64_t failures = this->failures();
+    std::uint64_t failures = this->failures().count;
     ar(known, middle, begun, next, failures);
     if constexpr (Archive::loading) restore(known, middle, begun, next, failures);
   }
@@ -49,6 +55,7 @@ class MapWindow {
   struct Reading {
     Geodetic middle;
     std::shared_ptr<const mapmatch::RoadNetwork> network;
+    std::string error;                      // why there is none
     std::optional<runtime::Thread> thread;  // it ends before the rest
   };
 
@@ -61,7 +68,9 @@ class MapWindow {
   std::shared_ptr<const mapmatch::RoadNetwork> network_;
   std::optional<Geodetic> middle_;
   std::unique_ptr<Reading> reading_;  // of the next window
-  std::atomic<std::uint64_t> failures_{0};
+  bool failed_ = false;               // there are no roads in this window
+  mutable std::mutex mutex_;          // protects what follows
+  Failures failures_;
 };
 
 }  // namespace maploop::vehicle

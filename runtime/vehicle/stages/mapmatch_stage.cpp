@@ -1,5 +1,6 @@
 #include "runtime/vehicle/stages/mapmatch_stage.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace maploop::vehicle {
@@ -11,6 +12,9 @@ static_assert(stages::mapmatch.phase == stages::fusion.budget &&
               stages::mapmatch.period % stages::fusion.period == Duration::zero() &&
               stages::mapmatch.phase + stages::mapmatch.budget < stages::fusion.period);
 
+// Longer than a match may wait for the publisher, which describes it with its own roads.
+constexpr int between_changes = 80;
+static_assert(between_changes > rings::mapmatch_publisher.capacity);
 constexpr std::size_t remembered = 100;  // states with which matching in a new window begins
 
 }  // namespace
@@ -79,10 +83,12 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   intake_.take_until(k);
   const mapmatch::VehicleFix fix = mapmatch::fix_of(newest_);
   if (window_.moves() && mapmatch::has_position(newest_)) {
-    if (window_.follow(fix.position)) {
+    if (since_change_ >= between_changes && window_.follow(fix.position)) {
       publish(matching_->doubts.finish(), k + spec().budget, stop);
       begin_matching();
+      since_change_ = 0;
     }
+    since_change_ = std::min(since_change_ + 1, between_changes);
     remember(newest_);
   }
   MapMatch& match = matching_->matcher.add(newest_);
@@ -107,25 +113,24 @@ void MapMatchStage::remember(const NavState& state) {
   recent_.push_back(state);
 }
 
-// Matches the last states again on the roads of the window; they were reported before.
+// Matches the last states again on the roads of the window; they were reported before, and so were
+// their doubts.
 void MapMatchStage::begin_matching() {
-  matching_ =
+  auto next =
       std::make_unique<Matching>(window_.network(), map_->rules, parameters_, feedback_parameters_);
   networks_->begin(recent_.empty() ? Time::min() : recent_.back().stamp, window_.network());
   for (const NavState& state : recent_) {
-    const MapMatch& match = matching_->matcher.add(state);
-    const mapmatch::VehicleFix fix = mapmatch::fix_of(state);
-    matching_->doubts.add(match, fix);
-    if (matching_->feedback) matching_->feedback->decide(match, fix);
+    const MapMatch& match = next->matcher.add(state);
+    if (next->feedback) next->feedback->decide(match, mapmatch::fix_of(state));
   }
+  if (matching_) next->matcher.take_course(matching_->matcher);
+  matching_ = std::move(next);
 }
 
 std::vector<RefusalCount> MapMatchStage::refusals() {
   std::vector<RefusalCount> list = counts_.of(spec().name);
-  if (window_.failures() > 0) {
-    list.push_back(
-        {std::string(spec().name), "roads of a damaged tile of the map", window_.failures()});
-  }
+  if (const MapWindow::Failures failures = window_.failures(); failures.count > 0)
+    list.push_back({std::string(spec().name), failures.last, failures.count});
   return list;
 }
 
@@ -161,7 +166,7 @@ template <class Archive>
 void MapMatchStage::archive(Archive& ar) {
   ar.section(spec().name, 4);
   bool closed = feedback_parameters_.has_value();
-  ar(window_, recent_);
+  ar(window_, recent_, since_change_);
   if constexpr (Archive::loading) {
     recent_.reserve(window_.moves() ? remembered : 0);
     begin_matching();

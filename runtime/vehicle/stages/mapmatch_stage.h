@@ -76,6 +76,7 @@ class MapMatchStage final : public GraphStage {
   std::shared_ptr<NetworksInUse> networks_;
   std::unique_ptr<Matching> matching_;
   std::vector<NavState> recent_;  // of a window that moves: the states of the last 10 s
+  int since_change_ = 1000;       // ticks since the window changed
   Outputs<MapMatch> matches_;
   Outputs<MapDoubt> doubts_out_;
   Outputs<MapFeedback> feedbacks_;

@@ -18,11 +18,12 @@ class NetworksInUse {
  public:
   // The matches of states after `stamp` refer to this network.
   void begin(Time stamp, std::shared_ptr<const mapmatch::RoadNetwork> network) {
+    Use before{stamp, std::move(network)};  // is destroyed without the lock
     const std::scoped_lock lock(mutex_);
-    last_[next_++ % last_.size()] = {stamp, std::move(network)};
+    std::swap(last_[next_++ % last_.size()], before);
   }
 
-  // Returns the network to which the match of a state refers; nullptr if several have followed it.
+  // Returns the network to which the match of a state refers; nullptr if two have followed it.
   std::shared_ptr<const mapmatch::RoadNetwork> at(Time stamp) const {
     const std::scoped_lock lock(mutex_);
     for (std::size_t back = 1; back <= std::min(next_, last_.size()); ++back) {

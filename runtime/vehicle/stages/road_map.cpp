@@ -1,5 +1,7 @@
 #include "runtime/vehicle/stages/road_map.h"
 
+#include <utility>
+
 #include "mapmatch/map_area.h"
 #include "mapmatch/network_file.h"
 
@@ -17,20 +19,23 @@ std::shared_ptr<const RoadMap> load_road_map(const MapParameters& parameters) {
   } else {
     roads = mapmatch::open_network(parameters.file);
   }
-  return std::make_shared<const RoadMap>(
-      RoadMap{mapmatch::RoadNetwork(std::move(roads), parameters.side_of_road), std::move(rules),
-              std::move(tiles), parameters.side_of_road});
+  const RoadSide side = tiles && parameters.side_of_road == RoadSide::by_map
+                            ? tiles->side_of_road()
+                            : parameters.side_of_road;
+  return std::make_shared<const RoadMap>(RoadMap{mapmatch::RoadNetwork(std::move(roads), side),
+                                                 std::move(rules), std::move(tiles), side});
 }
 
 mapmatch::GeographicBox area_of(const RoadMap& map) {
   return map.tiles ? map.tiles->area() : mapmatch::area_of(map.network);
 }
 
-std::shared_ptr<const mapmatch::RoadNetwork> network_within(const RoadMap& map,
-                                                            const mapmatch::GeographicBox& box) {
+std::shared_ptr<const mapmatch::RoadNetwork> network_of(const RoadMap& map,
+                                                        const std::set<mapmatch::TilePlace>& tiles,
+                                                        std::size_t max_nodes) {
   if (!map.tiles) return {std::shared_ptr<void>(), &map.network};
   return std::make_shared<const mapmatch::RoadNetwork>(
-      mapmatch::build_network(map.tiles->read(box)), map.side_of_road);
+      mapmatch::build_network(map.tiles->read(tiles, max_nodes)), map.side_of_road);
 }
 
 }  // namespace maploop::vehicle

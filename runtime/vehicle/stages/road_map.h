@@ -1,8 +1,9 @@
 // Loads the road map that a vehicle drives on.
 #pragma once
 
-#include <filesystem>
+#include <cstddef>
 #include <memory>
+#include <set>
 
 #include "mapmatch/geographic_box.h"
 #include "mapmatch/road_network.h"
@@ -12,12 +13,20 @@
 
 namespace maploop::vehicle {
 
+// Tells where a map window (map_window.h) ends, and where it moves; m from its middle.
+struct WindowSize {
+  double reach = 4000.0;         // to each side, at least
+  double begins_at = 2000.0;     // the next window's roads are read
+  double goes_over_at = 2500.0;  // they replace those before
+};
+
 // A RoadMap is immutable: any number of vehicles and threads may use it at the same time.
 struct RoadMap {
   mapmatch::RoadNetwork network;  // of a tiled map: without roads
   mapmatch::RuleBases rules;
   std::shared_ptr<const mapmatch::TiledMap> tiles{};  // nullptr if `network` holds the whole map
-  RoadSide side_of_road = RoadSide::by_map;
+  RoadSide side_of_road = RoadSide::by_map;  // of `tiles`: the given one, or that of the whole map
+  WindowSize window{};
 };
 
 // Loads what [map] of the configuration names: an OpenStreetMap file, a network file or a tiled
@@ -28,9 +37,10 @@ std::shared_ptr<const RoadMap> load_road_map(const MapParameters& parameters);
 // Returns the box, in degrees, that contains the whole map.
 mapmatch::GeographicBox area_of(const RoadMap& map);
 
-// Returns the network, of a tiled map that of the tiles that meet the box. The map must outlive it.
-// Throws std::runtime_error if a tile is damaged.
-std::shared_ptr<const mapmatch::RoadNetwork> network_within(const RoadMap& map,
-                                                            const mapmatch::GeographicBox& box);
+// Returns the network, of a tiled map that of these tiles. The map must outlive it. Throws
+// std::runtime_error if a tile is damaged, or if the tiles have more than `max_nodes` nodes.
+std::shared_ptr<const mapmatch::RoadNetwork> network_of(const RoadMap& map,
+                                                        const std::set<mapmatch::TilePlace>& tiles,
+                                                        std::size_t max_nodes = 50'000'000);
 
 }  // namespace maploop::vehicle
