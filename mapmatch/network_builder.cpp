@@ -60,11 +60,12 @@ class Builder {
       place_.push_back(frame.to_enu({radians(n.latitude), radians(n.longitude), 0.0}).head<2>());
       farthest = std::max(farthest, place_.back().norm());
     }
-    if (farthest > far_from_middle)
+    if (farthest > far_from_middle) {
       data_.warnings.push_back("it reaches " + std::to_string(std::lround(farthest / 1000.0)) +
                                " km from its middle, where distances are wrong by " +
                                std::to_string(std::lround(1000.0 * distortion(farthest))) +
                                " m per km: select a part of it with a box");
+    }
   }
 
   struct Middle {
@@ -117,9 +118,10 @@ class Builder {
       }
       if (drawn) data_.roads.push_back(way.road);
     }
-    if (missing > 0)
+    if (missing > 0) {
       data_.warnings.push_back(std::to_string(missing) +
                                " nodes of roads are missing in the map: their roads end there");
+    }
   }
 
   void list_segments_by_node() {
@@ -257,16 +259,19 @@ class Builder {
       if (!used) ++unused;
     }
     data_.banned.assign(banned.begin(), banned.end());
-    if (crowded > 0)
+    if (crowded > 0) {
       data_.warnings.push_back(std::to_string(crowded) + " turn restrictions are left out where " +
                                "more than " + std::to_string(input_limits::roads_at_node) +
                                " roads meet");
-    if (map_.restrictions_over_ways > 0)
+    }
+    if (map_.restrictions_over_ways > 0) {
       data_.warnings.push_back(std::to_string(map_.restrictions_over_ways) +
                                " turn restrictions via a way are left out");
-    if (unused > 0)
+    }
+    if (unused > 0) {
       data_.warnings.push_back(std::to_string(unused) +
                                " turn restrictions name roads that do not meet at their node");
+    }
   }
 
   const MapExtract& map_;

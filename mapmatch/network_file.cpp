@@ -34,9 +34,10 @@ void save_network(const std::filesystem::path& file, const NetworkData& network)
   out.write(reinterpret_cast<const char*>(sealed.data()),
             static_cast<std::streamsize>(sealed.size()));
   out.flush();
-  if (!out)
+  if (!out) {
     throw std::runtime_error("cannot write " + file.string() +
                              ": check that its folder exists and that the disk has room");
+  }
 }
 
 NetworkData load_network(const std::filesystem::path& file) {
@@ -56,9 +57,10 @@ NetworkData load_network(const std::filesystem::path& file) {
 }
 
 NetworkData open_network(const std::filesystem::path& file, const OsmOptions& options) {
-  if (is_tiled_map(file))
+  if (is_tiled_map(file)) {
     return build_network(
         TiledMap(file).read(options.box.value_or(GeographicBox{}), options.max_nodes));
+  }
   return is_archive(file) ? load_network(file) : build_network(read_osm(file, options));
 }
 

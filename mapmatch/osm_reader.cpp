@@ -32,9 +32,10 @@ void sort_once(std::vector<MapNode>& nodes) {
 }
 
 void require_room(const std::vector<MapNode>& nodes, const OsmOptions& options) {
-  if (nodes.size() > options.max_nodes)
+  if (nodes.size() > options.max_nodes) {
     throw std::runtime_error("more than " + std::to_string(options.max_nodes) +
                              " nodes; select a part of it with a box");
+  }
 }
 
 // Collects the nodes inside the box.

@@ -95,9 +95,10 @@ void append(MapExtract& map, const Tile& tile) {
     way.nodes.reserve(tiled.nodes.size());
     for (const TiledNode& n : tiled.nodes) {
       way.nodes.push_back(n.id);
-      if (n.latitude != TiledNode::nowhere)
+      if (n.latitude != TiledNode::nowhere) {
         map.nodes.push_back(
             {n.id, n.latitude / TiledNode::per_degree, n.longitude / TiledNode::per_degree});
+      }
     }
     map.ways.push_back(std::move(way));
   }

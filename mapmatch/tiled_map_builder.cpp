@@ -204,10 +204,11 @@ class TileCollector {
     if (std::abs(a.row - b.row) > longest_segment ||
         std::abs(a.column - b.column) > longest_segment)
       return;
-    for (std::int32_t row = std::min(a.row, b.row); row <= std::max(a.row, b.row); ++row)
+    for (std::int32_t row = std::min(a.row, b.row); row <= std::max(a.row, b.row); ++row) {
       for (std::int32_t column = std::min(a.column, b.column);
            column <= std::max(a.column, b.column); ++column)
         places.insert({row, column});
+    }
   }
 
   static void count_carriageways(const Tile& tile, TileTable& table) {

@@ -52,6 +52,7 @@ NavState state_at(double seconds, double east, double north, double azimuth) {
 // Returns a drive north along the road, 2 m to the right of its line, at 10 m/s for 25 s at 10 Hz.
 std::vector<NavState> drive_north() {
   std::vector<NavState> states;
+  states.reserve(250);
   for (int i = 0; i < 250; ++i) states.push_back(state_at(0.1 * i, 2.0, 1.0 * i, 0.0));
   return states;
 }

@@ -173,9 +173,10 @@ TEST(TiledMap, ATableThatNobodyWroteIsRefused) {
     const Bytes content = sealed(table);
     std::ofstream out(file, std::ios::binary);
     const Bytes head = sealed(TiledMapHead{sealed(TiledMapHead{}).size(), content.size()});
-    for (const Bytes& part : {head, content})
+    for (const Bytes& part : {head, content}) {
       out.write(reinterpret_cast<const char*>(part.data()),
                 static_cast<std::streamsize>(part.size()));
+    }
     out.close();
     return error_of([&] { (void)TiledMap(file).area(); });
   };
