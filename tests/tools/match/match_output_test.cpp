@@ -69,7 +69,6 @@ TEST_F(MatchOutput, CsvHasOneRowAFixAndEmptyIdsWhereThereIsNoRoad) {
   EXPECT_THAT(rows[rows.size() - 2], HasSubstr(",not used,,,,,,,,"));
   EXPECT_THAT(rows.back(), ::testing::EndsWith(",,,,,,,,,,"));
   EXPECT_THAT(rows[5], ::testing::EndsWith(",,,")) << "the map tells no lanes";
-
 }
 
 TEST_F(MatchOutput, GeoJsonAndGpxHoldTheMatchedPositions) {
