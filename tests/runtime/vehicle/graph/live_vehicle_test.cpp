@@ -151,7 +151,7 @@ TEST(LiveVehicle, AStageThatIsTooSlowLosesItsOwnSamplesAloneAndShedsLoad) {
   StageDelays delays;
   std::atomic<std::uint64_t> struck{0};
   delays["lidar"].add({}, milliseconds(300), struck);
-  const VehicleReport report = drive(bus, std::move(live), milliseconds(1500), 60, delays);
+  const VehicleReport report = drive(bus, std::move(live), milliseconds(3000), 60, delays);
   for (const RingHealth& ring : report.health.rings) {
     EXPECT_EQ(ring.lost > 0, ring.name == "velodyne -> lidar") << ring.name;
   }
