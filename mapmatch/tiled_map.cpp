@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mapmatch/map_area.h"
 #include "msgs/archive.h"
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
@@ -21,12 +22,7 @@ namespace {
 
 constexpr std::int32_t rows = 3600, columns = 7200;  // of the Earth
 constexpr std::uint64_t most_bytes = 1ULL << 50U;    // of a file
-// What has these many bytes is sealed, with a section.
-const std::size_t head_size = [] {
-  ArchiveWriter writer;
-  writer(TiledMapHead{});
-  return seal(writer.content()).size();
-}();
+const std::size_t head_size = sealed(TiledMapHead{}).size();
 
 ArchiveError unreadable() {
   return ArchiveError(std::string("it cannot be read: ") + std::strerror(errno));
@@ -128,18 +124,6 @@ bool is_tiled_map(const std::filesystem::path& file) {
   return head.find(TiledMapHead::section) != std::string::npos && head.starts_with("maploop\n");
 }
 
-std::set<TilePlace> tiles_within(const GeographicBox& box) {
-  const TilePlace low = tile_at(box.south, box.west), high = tile_at(box.north, box.east);
-  std::set<TilePlace> tiles;
-  for (std::int32_t row = low.row; row <= high.row; ++row) {
-    for (std::int32_t column = low.column;; column = (column + 1) % columns) {
-      tiles.insert({row, column});
-      if (column == high.column) break;
-    }
-  }
-  return tiles;
-}
-
 TiledMap::TiledMap(std::filesystem::path file) : file_(std::move(file)) {
   try {
     const int opened = open(file_.c_str(), O_RDONLY | O_CLOEXEC);
@@ -157,22 +141,45 @@ TiledMap::TiledMap(std::filesystem::path file) : file_(std::move(file)) {
   }
 }
 
+std::vector<TileEntry>::const_iterator TiledMap::at_or_after(const TilePlace& place) const {
+  return std::lower_bound(table_.tiles.begin(), table_.tiles.end(), place,
+                          [](const TileEntry& e, const TilePlace& p) { return e.place < p; });
+}
+
+std::set<TilePlace> TiledMap::tiles_within(const GeographicBox& box) const {
+  const TilePlace low = tile_at(box.south, box.west), high = tile_at(box.north, box.east);
+  std::set<TilePlace> tiles;
+  const auto add = [&](std::int32_t row, std::int32_t first, std::int32_t last) {
+    for (auto entry = at_or_after({row, first});
+         entry != table_.tiles.end() && entry->place <= TilePlace{row, last}; ++entry)
+      tiles.insert(entry->place);
+  };
+  for (std::int32_t row = low.row; row <= high.row; ++row) {
+    if (low.column <= high.column) {
+      add(row, low.column, high.column);
+    } else {
+      add(row, low.column, columns - 1);
+      add(row, 0, high.column);
+    }
+  }
+  return tiles;
+}
+
+std::set<TilePlace> TiledMap::tiles_about(std::span<const Geodetic> places, double metres) const {
+  std::set<TilePlace> tiles;
+  for (const Geodetic& place : places) tiles.merge(tiles_within(around(place, metres)));
+  return tiles;
+}
+
 MapExtract TiledMap::read(const GeographicBox& box, std::size_t max_nodes) const {
-  const bool whole =
-      box.west <= -180.0 && box.east >= 180.0 && box.south <= -90.0 && box.north >= 90.0;
-  if (!whole) return read(tiles_within(box), max_nodes);
-  std::set<TilePlace> all;
-  for (const TileEntry& entry : table_.tiles) all.insert(all.end(), entry.place);
-  return read(all, max_nodes);
+  return read(tiles_within(box), max_nodes);
 }
 
 MapExtract TiledMap::read(const std::set<TilePlace>& tiles, std::size_t max_nodes) const {
   MapExtract map;
   std::size_t nodes = 0;  // of all ways; one of several tiles counts in each
   for (const TilePlace& place : tiles) {
-    const auto entry =
-        std::lower_bound(table_.tiles.begin(), table_.tiles.end(), place,
-                         [](const TileEntry& e, const TilePlace& p) { return e.place < p; });
+    const auto entry = at_or_after(place);
     if (entry == table_.tiles.end() || entry->place != place) continue;
     try {
       const auto tile = read_part<Tile>(*descriptor_, entry->offset, entry->size);

@@ -7,20 +7,19 @@
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <span>
+#include <vector>
 
 #include "mapmatch/geographic_box.h"
 #include "mapmatch/network_builder.h"
 #include "mapmatch/tiled_map_format.h"
+#include "msgs/local_frame.h"
 #include "msgs/road_side.h"
 
 namespace maploop::mapmatch {
 
 // Returns whether the file begins as a tiled map.
 bool is_tiled_map(const std::filesystem::path& file);
-
-// Returns the tiles that meet a box. A box whose west is greater than its east contains the 180th
-// meridian.
-std::set<TilePlace> tiles_within(const GeographicBox& box);
 
 // A tiled map reads its tiles when they are asked for, and keeps none; the file stays open, so that
 // another one may take its name. Any number of threads may use it at the same time.
@@ -29,6 +28,12 @@ class TiledMap {
   // Reads head and table. Throws std::runtime_error, which names the file and the error.
   explicit TiledMap(std::filesystem::path file);
 
+  // Returns the tiles of the map that meet a box. A box whose west is greater than its east
+  // contains the 180th meridian.
+  std::set<TilePlace> tiles_within(const GeographicBox& box) const;
+  // Returns the tiles of the map that are at most so many metres north, south, east or west of one
+  // of the places.
+  std::set<TilePlace> tiles_about(std::span<const Geodetic> places, double metres) const;
   // Returns the roads of these tiles; none if the map has none there. Throws std::runtime_error,
   // which names the file and the damaged tile, or if their ways have more than `max_nodes` nodes.
   MapExtract read(const std::set<TilePlace>& tiles, std::size_t max_nodes = 50'000'000) const;
@@ -43,6 +48,8 @@ class TiledMap {
   const TileTable& table() const { return table_; }
 
  private:
+  std::vector<TileEntry>::const_iterator at_or_after(const TilePlace& place) const;
+
   std::filesystem::path file_;
   std::shared_ptr<const int> descriptor_;
   TileTable table_;

@@ -7,11 +7,12 @@
 #include <string>
 
 #include "mapmatch/osm_reader.h"
+#include "mapmatch/tiled_map_format.h"
 
 namespace maploop::mapmatch {
 
-struct TiledMapSummary {
-  std::size_t ways = 0, nodes = 0, restrictions = 0, tiles = 0;
+struct BuiltTiles {
+  TileTable table;
   // Nodes of roads that the map, or the box, lacks: their roads end there.
   std::size_t missing_nodes = 0;
 };
@@ -21,7 +22,7 @@ struct TiledMapSummary {
 // the result there is, until it is complete, a file of about its size. `progress` is told the name
 // of each step when it begins, of which there are 4. Throws std::runtime_error, which names the
 // file and the remedy, as read_osm does, or if the result cannot be written.
-TiledMapSummary build_tiled_map(
+BuiltTiles build_tiled_map(
     const std::filesystem::path& map, const std::filesystem::path& result,
     const OsmOptions& options = {},
     const std::function<void(const std::string& step)>& progress = [](const std::string&) {});

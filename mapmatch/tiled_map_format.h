@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mapmatch/network_builder.h"
+#include "msgs/archive.h"
 
 namespace maploop::mapmatch {
 
@@ -22,7 +23,8 @@ struct TilePlace {
   std::int32_t row = 0;     // from 90 degrees south to the north
   std::int32_t column = 0;  // from 180 degrees west to the east
 
-  auto operator<=>(const TilePlace&) const = default;
+  auto operator<=>(const TilePlace&) const =
+      default;  // NOLINT(modernize-use-nullptr): it takes a generated 0 for a pointer
 };
 
 // Returns the tile that contains a place (degrees).
@@ -61,6 +63,14 @@ struct Tile {
     ar(place.row, place.column, ways, restrictions);
   }
 };
+
+// Returns a part of the file as it is written.
+template <class Part>
+Bytes sealed(const Part& part) {
+  ArchiveWriter writer;
+  writer(part);
+  return seal(writer.content());
+}
 
 // Adds the roads of a tile, whose nodes may be there already.
 void append(MapExtract& map, const Tile& tile);

@@ -145,8 +145,8 @@ int run(double links, const fs::path& folder) {
   std::cout << fmt::format(
       "built {} ways with {} nodes in {} tiles in {:.0f} s; {:.0f} MB of memory at most ({:.0f} MB "
       "before); {:.0f} MB of map, {:.0f} MB of tiles\n",
-      built.ways, built.nodes, built.tiles, seconds_since(start), peak(), before,
-      static_cast<double>(fs::file_size(map)) / 1e6,
+      built.table.ways, built.table.nodes, built.table.tiles.size(), seconds_since(start), peak(),
+      before, static_cast<double>(fs::file_size(map)) / 1e6,
       static_cast<double>(fs::file_size(tiles)) / 1e6);
   start = std::chrono::steady_clock::now();
   const mapmatch::TiledMap opened(tiles);

@@ -10,31 +10,22 @@
 
 using namespace maploop;
 
-namespace {
-
-Bytes sealed(const auto& value) {
-  ArchiveWriter writer;
-  writer(value);
-  return seal(writer.content());
-}
-
-}  // namespace
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
   const bool is_table = input.byte() % 2 == 1;
   const Bytes content = seal(input.rest());
-  Bytes file = sealed(mapmatch::TiledMapHead{});
+  Bytes file = mapmatch::sealed(mapmatch::TiledMapHead{});
   const std::size_t after_head = file.size();
   file.insert(file.end(), content.begin(), content.end());
   Bytes table = content;
   if (!is_table) {
     mapmatch::TileTable one;
     one.tiles.push_back({mapmatch::tile_at(49.01, 8.41), after_head, content.size()});
-    table = sealed(one);
+    table = mapmatch::sealed(one);
     file.insert(file.end(), table.begin(), table.end());
   }
-  const Bytes head = sealed(mapmatch::TiledMapHead{file.size() - table.size(), table.size()});
+  const Bytes head =
+      mapmatch::sealed(mapmatch::TiledMapHead{file.size() - table.size(), table.size()});
   std::copy(head.begin(), head.end(), file.begin());
   const fuzz::MemoryFile written(file.data(), file.size());
   try {

@@ -81,9 +81,9 @@ TEST(TiledMap, AllTilesTogetherAreTheWholeMap) {
   MAPLOOP_REQUIRE_REAL_DATA();
   TemporaryFolder folder;
   const auto tiles = folder.path() / "karlsruhe.tiles";
-  const TiledMapSummary built = build_tiled_map(karlsruhe(), tiles);
-  EXPECT_EQ(built.ways, 1881u);
-  EXPECT_EQ(built.tiles, 12u);
+  const BuiltTiles built = build_tiled_map(karlsruhe(), tiles);
+  EXPECT_EQ(built.table.ways, 1881u);
+  EXPECT_EQ(built.table.tiles.size(), 12u);
   const auto bytes = [](const std::filesystem::path& file) {
     NetworkData network = open_network(file);
     network.warnings.clear();  // restrictions outside of all tiles are left out of them
@@ -163,11 +163,6 @@ TEST(TiledMap, ATableThatNobodyWroteIsRefused) {
   TemporaryFolder folder;
   const auto file = folder.path() / "a.tiles";
   const auto error = [&](const std::vector<TileEntry>& tiles) {
-    const auto sealed = [](const auto& value) {
-      ArchiveWriter writer;
-      writer(value);
-      return seal(writer.content());
-    };
     TileTable table;
     table.tiles = tiles;
     const Bytes content = sealed(table);

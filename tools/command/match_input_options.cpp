@@ -1,8 +1,5 @@
 #include "tools/command/match_input_options.h"
 
-#include <set>
-
-#include "mapmatch/map_area.h"
 #include "mapmatch/network_file.h"
 #include "mapmatch/tiled_map.h"
 #include "msgs/frames.h"
@@ -16,14 +13,13 @@ mapmatch::RoadNetwork MatchInputOptions::network(
   constexpr double margin = 1000.0;  // m about each fix
   if (mapmatch::is_tiled_map(map)) {
     const mapmatch::TiledMap tiled(map);
-    std::set<mapmatch::TilePlace> tiles;
-    if (!box.empty()) {
-      tiles = mapmatch::tiles_within({box[0], box[1], box[2], box[3]});
-    } else {
+    std::vector<Geodetic> places;
+    if (box.empty()) {
       for (const auto& file : tracks)
-        for (const mapmatch::VehicleFix& fix : track(file))
-          tiles.merge(mapmatch::tiles_within(mapmatch::around(fix.position, margin)));
+        for (const mapmatch::VehicleFix& fix : track(file)) places.push_back(fix.position);
     }
+    const auto tiles = box.empty() ? tiled.tiles_about(places, margin)
+                                   : tiled.tiles_within({box[0], box[1], box[2], box[3]});
     return mapmatch::RoadNetwork(mapmatch::build_network(tiled.read(tiles)),
                                  side_of_road.value_or(tiled.side_of_road()));
   }

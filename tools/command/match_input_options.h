@@ -18,8 +18,8 @@ struct MatchInputOptions : MatcherOptions {
   std::optional<RoadSide> side_of_road;        // on which traffic keeps
   double sigma = match::TrackOptions{}.sigma;  // m
 
-  // These throw std::runtime_error naming the file.
-  // Of a tiled map without a box, the network has the roads about the tracks.
+  // These throw std::runtime_error naming the file. If the map is tiled and no box is given, the
+  // network contains the roads about the tracks.
   mapmatch::RoadNetwork network(const std::vector<std::filesystem::path>& tracks) const;
   match::Track track(const std::filesystem::path& file) const;
 };

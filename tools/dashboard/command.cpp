@@ -60,8 +60,7 @@ constexpr double roads_within = 5000.0;  // m of a drive's origin
 std::string roads_about(const vehicle::RoadMap* map, const Geodetic& origin) {
   web::Plot plot;
   if (map != nullptr) {
-    const auto roads =
-        network_of(*map, mapmatch::tiles_within(mapmatch::around(origin, roads_within)));
+    const auto roads = network_about(*map, std::span(&origin, 1), roads_within);
     plot.roads = match::road_lines(*roads, origin, {{"", {0.0}, {0.0}}}, roads_within);
   }
   return web::to_json(plot);

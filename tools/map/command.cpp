@@ -127,14 +127,14 @@ int build_tiles(const MapOptions& options) {
   int step = 0;
   mapmatch::OsmOptions osm = options.osm();
   osm.max_nodes = 100'000'000;  // 16 bytes each
-  const mapmatch::TiledMapSummary built = mapmatch::build_tiled_map(
+  const mapmatch::BuiltTiles built = mapmatch::build_tiled_map(
       options.input, options.output, osm,
       [&](const std::string& name) { std::cerr << fmt::format("[{}/4] {}\n", ++step, name); });
   std::cout << fmt::format(
       "{} ways with {} nodes in {} tiles; {} turn restrictions\n"
       "wrote {}, {} bytes\n",
-      built.ways, built.nodes, built.tiles, built.restrictions, options.output.string(),
-      std::filesystem::file_size(options.output));
+      built.table.ways, built.table.nodes, built.table.tiles.size(), built.table.restrictions,
+      options.output.string(), std::filesystem::file_size(options.output));
   if (built.missing_nodes > 0 && options.box.empty()) {
     std::cout << fmt::format(
         "note: {} nodes of roads are missing in the map: their roads end there\n",

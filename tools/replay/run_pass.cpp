@@ -167,12 +167,10 @@ ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report
 std::shared_ptr<const mapmatch::RoadNetwork> roads_about(const RunPass& pass,
                                                          const vehicle::RoadMap& map) {
   constexpr double margin = 1000.0;  // m
-  std::set<mapmatch::TilePlace> tiles;
-  for (const NavState& state : pass.track.states()) {
-    const Geodetic place = LocalFrame(state.origin).to_geodetic(state.position_enu);
-    tiles.merge(mapmatch::tiles_within(mapmatch::around(place, margin)));
-  }
-  return vehicle::network_of(map, tiles);
+  std::vector<Geodetic> places;
+  for (const NavState& state : pass.track.states())
+    places.push_back(LocalFrame(state.origin).to_geodetic(state.position_enu));
+  return vehicle::network_about(map, places, margin);
 }
 
 void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,

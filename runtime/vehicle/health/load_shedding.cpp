@@ -41,25 +41,20 @@ void LoadShedding::worked(double share) {
   }
 }
 
-// What was measured so far was measured at another level.
+// The measurements so far belong to another level, so they are forgotten.
 void LoadShedding::go_to(std::size_t level) {
   level_ = level;
   recent_ = 0;
   with_room_ = 0;
 }
 
-int LoadShedding::points_one_of() const {
+LoadShedding::Level LoadShedding::level() const {
   const std::scoped_lock lock(mutex_);
-  return levels_[level_].points;
-}
-
-int LoadShedding::pairs_one_of() const {
-  const std::scoped_lock lock(mutex_);
-  return levels_[level_].pairs;
+  return levels_[level_];
 }
 
 std::string LoadShedding::sentence() const {
-  const int points = points_one_of(), pairs = pairs_one_of();
+  const auto [points, pairs] = level();
   std::string used;
   if (points > 1) used = fmt::format("one of {} points of each scan", points);
   if (pairs > 1) used += fmt::format("{}one of {} image pairs", used.empty() ? "" : " and ", pairs);

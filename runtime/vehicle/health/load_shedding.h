@@ -44,8 +44,8 @@ class LoadShedding {
   void worked(double share);
 
   // Returns n where every n-th point of a scan, or image pair, is used.
-  int points_one_of() const;
-  int pairs_one_of() const;
+  int points_one_of() const { return level().points; }
+  int pairs_one_of() const { return level().pairs; }
 
   // Returns what is left out at present, as a sentence; empty: nothing.
   std::string sentence() const;
@@ -55,6 +55,7 @@ class LoadShedding {
     int points = 1, pairs = 1;
   };
 
+  Level level() const;
   void go_to(std::size_t level);
 
   OverloadParameters parameters_;

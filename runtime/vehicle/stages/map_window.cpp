@@ -2,10 +2,9 @@
 
 #include <cmath>
 #include <exception>
+#include <span>
 #include <system_error>
 #include <utility>
-
-#include "mapmatch/map_area.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -48,8 +47,7 @@ std::unique_ptr<MapWindow::Reading> MapWindow::begin(const Geodetic& middle) con
   reading->middle = middle;
   const auto read = [map = map_, to = reading.get()](const std::stop_token&) {
     try {
-      const auto box = mapmatch::around(to->middle, map->window.reach);
-      to->network = network_of(*map, mapmatch::tiles_within(box), most_nodes);
+      to->network = network_about(*map, std::span(&to->middle, 1), map->window.reach, most_nodes);
     } catch (const std::exception& e) {
       to->error = e.what();
     }

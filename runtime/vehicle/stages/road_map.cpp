@@ -30,12 +30,13 @@ mapmatch::GeographicBox area_of(const RoadMap& map) {
   return map.tiles ? map.tiles->area() : mapmatch::area_of(map.network);
 }
 
-std::shared_ptr<const mapmatch::RoadNetwork> network_of(const RoadMap& map,
-                                                        const std::set<mapmatch::TilePlace>& tiles,
-                                                        std::size_t max_nodes) {
+std::shared_ptr<const mapmatch::RoadNetwork> network_about(const RoadMap& map,
+                                                           std::span<const Geodetic> places,
+                                                           double metres, std::size_t max_nodes) {
   if (!map.tiles) return {std::shared_ptr<void>(), &map.network};
   return std::make_shared<const mapmatch::RoadNetwork>(
-      mapmatch::build_network(map.tiles->read(tiles, max_nodes)), map.side_of_road);
+      mapmatch::build_network(map.tiles->read(map.tiles->tiles_about(places, metres), max_nodes)),
+      map.side_of_road);
 }
 
 }  // namespace maploop::vehicle

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <memory>
-#include <set>
+#include <span>
 
 #include "mapmatch/geographic_box.h"
 #include "mapmatch/road_network.h"
@@ -37,10 +37,12 @@ std::shared_ptr<const RoadMap> load_road_map(const MapParameters& parameters);
 // Returns the box, in degrees, that contains the whole map.
 mapmatch::GeographicBox area_of(const RoadMap& map);
 
-// Returns the network, of a tiled map that of these tiles. The map must outlive it. Throws
-// std::runtime_error if a tile is damaged, or if the tiles have more than `max_nodes` nodes.
-std::shared_ptr<const mapmatch::RoadNetwork> network_of(const RoadMap& map,
-                                                        const std::set<mapmatch::TilePlace>& tiles,
-                                                        std::size_t max_nodes = 50'000'000);
+// Returns the network, of a tiled map that of the tiles within so many metres of the places. The
+// map must outlive it. Throws std::runtime_error if a tile is damaged, or if the tiles have more
+// than `max_nodes` nodes.
+std::shared_ptr<const mapmatch::RoadNetwork> network_about(const RoadMap& map,
+                                                           std::span<const Geodetic> places,
+                                                           double metres,
+                                                           std::size_t max_nodes = 50'000'000);
 
 }  // namespace maploop::vehicle
