@@ -3,10 +3,9 @@ import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { join } from "node:path";
 
-import { maploop } from "./pages.mjs";
+import { maploop, newPage } from "./pages.mjs";
 
 export const drive = join(process.env.MAPLOOP_CACHE, "2011_09_26/2011_09_26_drive_0013_sync");
-export const patience = { timeout: 60000 };
 
 const children = [];
 
@@ -39,7 +38,7 @@ export async function stop(child) {
 
 // A page that fails the test when its script does.
 export async function openLive(browser, url, viewport, colorScheme = "light") {
-  const page = await browser.newPage({ viewport, colorScheme });
+  const page = await newPage(browser, { viewport, colorScheme });
   page.on("pageerror", (e) => assert.fail(`the page's script failed: ${e}`));
   await page.goto(url);
   return page;

@@ -6,7 +6,7 @@ import { statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { cursors, drag, isDrawn, launch, open, pictures, reachedByKeys, run, slider, stretch, testWholePage, time } from "./pages.mjs";
+import { cursors, drag, isDrawn, launch, newPage, open, pictures, reachedByKeys, run, slider, stretch, testWholePage, time } from "./pages.mjs";
 
 const file = join(pictures, "match.html");
 const [rows, columns, block] = [8, 8, 150]; // of a town; m
@@ -170,7 +170,7 @@ test("keys reach every control, and go from fix to fix", async () => {
 test("ten minutes at ten fixes a second stay small, and the map is there at once", async () => {
   const { size } = statSync(file);
   assert.ok(size < 10e6, `${size} bytes`);
-  const page = await browser.newPage();
+  const page = await newPage(browser);
   await page.goto(`file://${file}`);
   await page.waitForFunction(`(${isDrawn})(document.querySelector("canvas.map"))`);
   console.log(`${size} bytes, the map is drawn after ${Math.round(await page.evaluate(() => performance.now()))} ms`);

@@ -21,9 +21,19 @@ export function launch() {
   return chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu"] });
 }
 
+// How long a test waits for what must come, ms: a bound for what hangs, not a demand on a slow computer.
+export const patience = 180000;
+
+// An empty page with that patience.
+export async function newPage(browser, options) {
+  const page = await browser.newPage(options);
+  page.setDefaultTimeout(patience);
+  return page;
+}
+
 // A page that fails the test when its script does, when it complains, or when it asks for anything.
 export async function open(browser, file, width, colorScheme = "light") {
-  const page = await browser.newPage({ viewport: { width, height: 900 }, colorScheme });
+  const page = await newPage(browser, { viewport: { width, height: 900 }, colorScheme });
   page.on("pageerror", (e) => assert.fail(`the page's script failed: ${e}`));
   page.on("console", (m) => assert.notEqual(m.type(), "error", m.text()));
   page.on("request", (r) => assert.match(r.url(), /^(file|data):/, "nothing is asked for"));

@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 
 import { assertAccessible } from "./accessible.mjs";
-import { drive, killAll, openLive, patience, start, startDashboard, stop } from "./dashboard.mjs";
+import { drive, killAll, openLive, start, startDashboard, stop } from "./dashboard.mjs";
 import { launch, pictures, reachedByKeys } from "./pages.mjs";
 
 let browser;
@@ -28,14 +28,14 @@ test("a page shows one of the runs on a bus, can show the other, and says when i
   const { child: dashboard, url } = await startDashboard();
   const [slow, fast] = [start("replay", drive, "--loop", "0", "--speed", "0.5"), start("replay", drive, "--loop", "0", "--speed", "2")];
   const page = await openLive(browser, url, desktop);
-  await choice(page).locator("option").nth(1).waitFor({ state: "attached", ...patience });
+  await choice(page).locator("option").nth(1).waitFor({ state: "attached" });
   const ids = await choice(page).locator("option").evaluateAll((all) => all.map((o) => o.value));
   assert.equal(ids.length, 2);
   const speeds = [];
   for (const id of ids) {
     await choice(page).selectOption(id);
     await page.waitForURL(new RegExp(`run=${id}`));
-    await page.getByText("aided").waitFor(patience);
+    await page.getByText("aided").waitFor();
     assert.equal(await choice(page).inputValue(), id);
     speeds.push(await speed(page).inputValue());
     await page.waitForTimeout(1000);
@@ -60,14 +60,14 @@ test("a page shows one of the runs on a bus, can show the other, and says when i
 
   const [shown, other] = speeds[1] === "2" ? [fast, slow] : [slow, fast];
   await stop(shown);
-  await page.getByText(/^Ended: replay of/).waitFor(patience);
+  await page.getByText(/^Ended: replay of/).waitFor();
   assert.match(await choice(page).locator("option").nth(1).innerText(), /ended/);
   assert.equal(await choice(page).inputValue(), ids[1], "it stays");
   await choice(page).selectOption(ids[0]);
-  await page.getByText("aided").waitFor(patience);
+  await page.getByText("aided").waitFor();
   assert.equal(await speed(page).inputValue(), speeds[0]);
   await page.goto(`${url}?run=01234567`);
-  await page.getByText("There is no run 01234567").waitFor(patience);
+  await page.getByText("There is no run 01234567").waitFor();
   await page.close();
   await stop(other);
   await stop(dashboard);
@@ -81,9 +81,9 @@ test("a page that follows begins anew with the next run", async () => {
     await page.waitForFunction((value) => {
       const select = document.querySelector("footer select");
       return document.querySelector(".notice").textContent === "" && select.value === value;
-    }, times, patience);
+    }, times);
     await stop(replay);
-    await page.getByText(/^Ended: replay of/).waitFor(patience);
+    await page.getByText(/^Ended: replay of/).waitFor();
   }
   await page.close();
   await stop(dashboard);

@@ -7,8 +7,8 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 
 import { assertAccessible } from "./accessible.mjs";
-import { drive, killAll, openLive, patience, start, startDashboard } from "./dashboard.mjs";
-import { launch, pictures, reachedByKeys } from "./pages.mjs";
+import { drive, killAll, openLive, start, startDashboard } from "./dashboard.mjs";
+import { launch, newPage, patience, pictures, reachedByKeys } from "./pages.mjs";
 
 const map = join(process.env.MAPLOOP_DATA ?? "", "maps/karlsruhe_2012-04.osm.pbf");
 const roads = existsSync(map) ? ["--map", map] : [];
@@ -28,8 +28,8 @@ after(async () => {
 async function openSpace(width, colours, hash = "#3d=") {
   const page = await openLive(browser, url + hash, { width, height: 860 }, colours);
   page.on("console", (m) => assert.notEqual(m.type(), "error", m.text()));
-  await page.getByText("aided").waitFor(patience);
-  await page.locator(".view.scan canvas").waitFor(patience);
+  await page.getByText("aided").waitFor();
+  await page.locator(".view.scan canvas").waitFor();
   return page;
 }
 
@@ -37,7 +37,7 @@ const space = (page) => page.locator("canvas.space");
 
 // Takes pictures until one satisfies: a slow computer draws late, so nothing is judged by a time.
 async function pictureThat(satisfies, page, what, options = {}) {
-  const end = Date.now() + patience.timeout;
+  const end = Date.now() + patience;
   for (;;) {
     const picture = await space(page).screenshot(options);
     if (satisfies(picture)) return picture;
@@ -60,7 +60,7 @@ function settled(page) {
 // Pauses, so that only the eye moves.
 async function pause(page) {
   await page.getByRole("button", { name: "Pause", exact: true }).click();
-  await page.getByRole("button", { name: "Play", exact: true }).waitFor(patience);
+  await page.getByRole("button", { name: "Play", exact: true }).waitFor();
 }
 
 for (const colours of ["light", "dark"])
@@ -135,7 +135,7 @@ test("two fingers move and zoom it", async () => {
 });
 
 test("a browser without WebGL says so", async () => {
-  const page = await browser.newPage({ viewport: { width: 1024, height: 860 } });
+  const page = await newPage(browser, { viewport: { width: 1024, height: 860 } });
   await page.addInitScript(() => {
     const { getContext } = HTMLCanvasElement.prototype;
     HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
@@ -143,7 +143,7 @@ test("a browser without WebGL says so", async () => {
     };
   });
   await page.goto(`${url}#3d=`);
-  await page.locator(".empty", { hasText: "no WebGL 2" }).waitFor(patience);
+  await page.locator(".empty", { hasText: "no WebGL 2" }).waitFor();
   await page.getByRole("button", { name: "3-D" }).click();
   assert.ok(!(await page.locator(".empty", { hasText: "no WebGL 2" }).isVisible()));
   await page.close();
