@@ -135,6 +135,8 @@ TiledMap::TiledMap(std::filesystem::path file) : file_(std::move(file)) {
     const auto head = read_part<TiledMapHead>(*descriptor_, 0, head_size);
     if (head.table_offset > most_bytes) throw ArchiveError("the place of its table is damaged");
     table_ = read_part<TileTable>(*descriptor_, head.table_offset, head.table_size);
+    if (std::filesystem::file_size(file_) != head.table_offset + head.table_size)
+      throw ArchiveError("its size is not the stated one: it is cut, or joined to another file");
     check(table_);
   } catch (const std::exception& e) {
     throw std::runtime_error("cannot read the tiled map " + file_.string() + ": " + e.what());

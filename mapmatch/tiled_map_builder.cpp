@@ -1,6 +1,7 @@
 #include "mapmatch/tiled_map_builder.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <osmium/io/any_input.hpp>
 #include <stdexcept>
 
@@ -21,11 +22,22 @@ void each(const osmium::io::File& file, bits kinds, Visit visit) {
   reader.close();
 }
 
+// Returns the file behind links, which stay. Devices and pipes are not replaced by a file.
+std::filesystem::path replaceable(const std::filesystem::path& file) {
+  const std::filesystem::path target = std::filesystem::weakly_canonical(file);
+  if (std::filesystem::exists(target) && !std::filesystem::is_regular_file(target)) {
+    throw std::runtime_error("cannot write the tiled map " + file.string() +
+                             ": it is not a regular file; give another name");
+  }
+  return target;
+}
+
 }  // namespace
 
-BuiltTiles build_tiled_map(const std::filesystem::path& map, const std::filesystem::path& result,
+BuiltTiles build_tiled_map(const std::filesystem::path& map, const std::filesystem::path& given,
                            const OsmOptions& options,
                            const std::function<void(const std::string& step)>& progress) {
+  const std::filesystem::path result = replaceable(given);
   BuiltTiles built;
   TileTable& table = built.table;
   const Scratch unfinished(result.string() + ".unfinished");

@@ -52,6 +52,9 @@ class LiveSource {
   virtual bool wait(T& sample, Duration patience) = 0;
 
   virtual LiveReport report() const = 0;
+
+  // Samples that were thinned or left out because the computer was too slow; any thread.
+  virtual std::uint64_t shed() const { return 0; }
 };
 
 }  // namespace maploop::sensors

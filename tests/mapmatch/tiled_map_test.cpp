@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <fstream>
@@ -243,9 +244,25 @@ TEST(TiledMap, ADamagedCutOrForeignFileIsRefused) {
     EXPECT_THAT(with(flipped), HasSubstr("a.tiles")) << at;
     EXPECT_THAT(with(whole.substr(0, at)), HasSubstr("a.tiles")) << at;
   }
+  EXPECT_THAT(with(whole + "x"), HasSubstr("joined to another"));
   EXPECT_FALSE(is_tiled_map(folder.path()));
   EXPECT_FALSE(is_tiled_map(folder.path() / "small.osm"));
   EXPECT_THAT(error_of([&] { TiledMap(folder.path() / "none"); }), HasSubstr("none"));
+}
+
+TEST(TiledMap, ALinkStaysAndAPipeIsNotReplaced) {
+  TemporaryFolder folder;
+  const auto map =
+      OsmFile(folder.path()).node(1, 49.01, 8.41).node(2, 49.02, 8.41).road(10, {1, 2}).write();
+  std::ofstream(folder.path() / "a.tiles") << "old";
+  std::filesystem::create_symlink("a.tiles", folder.path() / "link.tiles");
+  build_tiled_map(map, folder.path() / "link.tiles");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link.tiles"));
+  EXPECT_THAT(ways_of(TiledMap(folder.path() / "a.tiles").read()), ElementsAre(10));
+  const auto pipe = folder.path() / "pipe.tiles";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(error_of([&] { build_tiled_map(map, pipe); }), HasSubstr("not a regular file"));
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(TiledMap, WhatCannotBeBuiltIsRefusedWithoutAFile) {

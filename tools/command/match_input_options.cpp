@@ -1,5 +1,8 @@
 #include "tools/command/match_input_options.h"
 
+#include <stdexcept>
+
+#include "mapmatch/map_area.h"
 #include "mapmatch/network_file.h"
 #include "mapmatch/tiled_map.h"
 #include "msgs/frames.h"
@@ -20,6 +23,12 @@ mapmatch::RoadNetwork MatchInputOptions::network(
     }
     const auto tiles = box.empty() ? tiled.tiles_about(places, margin)
                                    : tiled.tiles_within({box[0], box[1], box[2], box[3]});
+    if (tiles.empty()) {
+      throw std::runtime_error("the map covers " + to_text(tiled.area()) + ", and " +
+                               (box.empty() ? "no track is near a road of it: is it the map of "
+                                              "this place, and is latitude not longitude?"
+                                            : "--box has no road of it"));
+    }
     return mapmatch::RoadNetwork(mapmatch::build_network(tiled.read(tiles)),
                                  side_of_road.value_or(tiled.side_of_road()));
   }

@@ -144,6 +144,11 @@ int build_tiles(const MapOptions& options) {
 }
 
 int build(const MapOptions& options) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(options.input, options.output, ignored)) {
+    throw std::runtime_error("the result would replace the map " + options.input.string() +
+                             ": give another name");
+  }
   if (options.tiles) return build_tiles(options);
   const OpenedNetwork opened = open(options);
   save_network(options.output, opened.network.data());
@@ -159,7 +164,7 @@ int tiled_info(const MapOptions& options) {
   std::cout << fmt::format(
       "tiled map: {} ways with {} nodes in {} tiles, {} turn restrictions; {}\n"
       "traffic keeps to the {}: {} links have an opposite carriageway to the left, {} to the "
-      "right\n",
+      "right (a link counts in each tile that it is in)\n",
       table.ways, table.nodes, table.tiles.size(), table.restrictions,
       mapmatch::to_text(map.area()), to_string(map.side_of_road()), table.to_left, table.to_right);
   if (table.restrictions_over_ways > 0) {

@@ -71,7 +71,7 @@ vehicle::VehicleConfig config_of(const PppOptions& options) {
   if (!options.heights.empty()) p.heights = options.heights.string();
   set_map(config.map, options.map, options.map_mode);
   if (config.map.mode == vehicle::MapMode::hard_reset) {
-    throw std::runtime_error("[map] mode = \"hard-reset\" is none of PPP: none, loose or tight");
+    throw std::runtime_error("[map] mode = \"hard-reset\" is not for PPP: use none, loose or tight");
   }
   return config;
 }
@@ -133,7 +133,7 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
   if (on_map && r.truth)
     r.comparison = std::make_unique<gnss::MapComparison>(*r.truth, r.scored_from);
   Progress progress("epochs");
-  const auto epochs = static_cast<double>(run.setup().observations().epochs.size());
+  const auto epochs = static_cast<double>(run.epoch_count());
   run.process([&](const ppp::PppSolution& s) {
     progress.at(static_cast<double>(r.solutions.size()), epochs);
     if (!s.message.empty()) std::cerr << format_gps_time(s.time) << ": " << s.message << '\n';

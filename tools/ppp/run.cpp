@@ -37,15 +37,24 @@ void PppRun::process(const std::function<void(const PppSolution&)>& sink) {
   }
 }
 
+bool PppRun::is_chosen(const Epoch& epoch) const {
+  return !(options_.start && epoch.time < *options_.start) &&
+         !(options_.end && epoch.time > *options_.end) &&
+         std::ranges::none_of(options_.outages, [&](const auto& outage) {
+           return epoch.time >= outage.first && epoch.time < outage.second;
+         });
+}
+
+std::size_t PppRun::epoch_count() const {
+  const auto& all = setup_.observations().epochs;
+  return static_cast<std::size_t>(
+      std::ranges::count_if(all, [this](const Epoch& epoch) { return is_chosen(epoch); }));
+}
+
 std::vector<Epoch> PppRun::chosen_epochs() const {
   std::vector<Epoch> epochs;
   for (const Epoch& epoch : setup_.observations().epochs) {
-    if (options_.start && epoch.time < *options_.start) continue;
-    if (options_.end && epoch.time > *options_.end) break;
-    const bool lost =
-        std::any_of(options_.outages.begin(), options_.outages.end(),
-                    [&](const auto& o) { return epoch.time >= o.first && epoch.time < o.second; });
-    if (lost) continue;
+    if (!is_chosen(epoch)) continue;
     epochs.push_back(epoch);
     if (options_.change) options_.change(epochs.back());
   }

@@ -47,12 +47,15 @@ class PppRun {
 
   Direction direction() const { return options_.direction; }
   const ppp::PppSetup& setup() const { return setup_; }
+  std::size_t epoch_count() const;  // of those that process() solves
   // Why satellites had no orbit or clock, with the number of epochs.
   std::vector<std::string> missing_products() const;
   double seconds() const { return seconds_; }  // spent in the filter
 
  private:
-  // Returns the epochs between start and end that are no outage, in the order of time.
+  // Between start and end, and in no outage.
+  bool is_chosen(const ppp::Epoch& epoch) const;
+  // Returns these epochs in the order of time, changed as the options say.
   std::vector<ppp::Epoch> chosen_epochs() const;
   std::vector<ppp::PppSolution> run_backward(const std::vector<ppp::Epoch>& epochs);
   const ppp::PppSolution& step(ppp::MapAidedFilter& filter, const ppp::Epoch& epoch);

@@ -198,7 +198,7 @@ void add_matching(py::module_& module) {
       module, "RoadNetwork",
       R"(The roads of a map, as links from junction to junction.
 
-file: .osm.pbf, .osm (also .gz, .bz2), or a network file of `maploop map build`.
+file: .osm.pbf, .osm (also .gz, .bz2), or a network file or tiled map of `maploop map build`.
 box: west, south, east, north in degrees: only this part. Raises RuntimeError that names the file.)")
       .def(py::init(&open_map), py::arg("file"), py::arg("box") = py::none())
       .def("__len__", &RoadNetwork::size)

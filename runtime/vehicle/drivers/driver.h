@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -59,6 +60,9 @@ class DriverBase {
 
   // The recent state of a live sensor; one thread at a time may ask, also while it runs.
   virtual std::optional<SensorHealth> health() { return std::nullopt; }
+
+  // Samples of a live sensor that were thinned or left out under overload; any thread.
+  virtual std::uint64_t shed() const { return 0; }
 
  protected:
   runtime::TraceBuffer* trace() { return trace_; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -75,6 +76,8 @@ class LiveDriver final : public Driver<T> {
     h.clock = known_->clock;
     return h;
   }
+
+  std::uint64_t shed() const override { return source_->shed(); }
 
  private:
   // Longest time without a look at the stop token, without a promise, and without a pause.

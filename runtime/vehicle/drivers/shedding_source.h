@@ -37,11 +37,8 @@ class SheddingSource final : public sensors::LiveSource<T> {
     return source_->wait(sample, patience) && is_used(sample);
   }
 
-  sensors::LiveReport report() const override {
-    sensors::LiveReport report = source_->report();
-    report.note(shed_.load(std::memory_order_relaxed), "thinned or left out under overload");
-    return report;
-  }
+  sensors::LiveReport report() const override { return source_->report(); }
+  std::uint64_t shed() const override { return shed_.load(std::memory_order_relaxed); }
 
  private:
   bool is_used(LidarScan& scan) {

@@ -72,6 +72,7 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
     for (std::string& wrong : watched.watchdog.look(stamp, now, facts(watched, t.count)))
       say(std::move(wrong));
     if (watched.driver != nullptr) {
+      t.shed = watched.driver->shed();
       say(outage_sentence(t.name, watched.driver->arrivals().outages(), origin_));
     }
     health.threads.push_back(std::move(t));

@@ -158,6 +158,9 @@ TEST(LiveVehicle, AStageThatIsTooSlowLosesItsOwnSamplesAloneAndShedsLoad) {
   EXPECT_EQ(report.stalls, 0u);
   EXPECT_GT(bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE").size(), 50u);
   EXPECT_THAT(report.health.degraded, Contains(HasSubstr("overload: only one of")));
+  for (const ThreadHealth& thread : report.health.threads) {
+    EXPECT_EQ(thread.shed > 0, thread.name == "velodyne") << thread.name;
+  }
 }
 
 TEST(LiveVehicle, GoesOnThroughUnpluggingAndAFloodOfGarbage) {
