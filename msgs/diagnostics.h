@@ -119,14 +119,14 @@ struct RingHealth {
 
 // Describes the state of one thread: a sensor's driver or a stage.
 struct ThreadHealth {
-  std::string name;                      // of the driver or the stage
-  std::string scheduling;                // as the kernel granted it: "fifo 50", "other"
-  std::uint64_t count = 0;               // samples or ticks so far
-  double rate = 0.0;                     // Hz of data time, over the last second
-  std::string failure;                   // empty while the thread runs
-  double cpu = 0.0;                      // s of processor time used so far
-  std::uint64_t left_out = 0;            // ticks, by the overrun policy
-  std::uint64_t shed = 0;                // samples thinned or left out by a driver under overload
+  std::string name;            // of the driver or the stage
+  std::string scheduling;      // as the kernel granted it: "fifo 50", "other"
+  std::uint64_t count = 0;     // samples or ticks so far
+  double rate = 0.0;           // Hz of data time, over the last second
+  std::string failure;         // empty while the thread runs
+  double cpu = 0.0;            // s of processor time used so far
+  std::uint64_t left_out = 0;  // ticks, by the overrun policy
+  std::uint64_t shed = 0;      // samples thinned or left out by a driver under overload
 
   void archive(auto& ar) { ar(name, scheduling, count, rate, failure, cpu, left_out, shed); }
 };

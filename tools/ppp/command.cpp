@@ -71,7 +71,8 @@ vehicle::VehicleConfig config_of(const PppOptions& options) {
   if (!options.heights.empty()) p.heights = options.heights.string();
   set_map(config.map, options.map, options.map_mode);
   if (config.map.mode == vehicle::MapMode::hard_reset) {
-    throw std::runtime_error("[map] mode = \"hard-reset\" is not for PPP: use none, loose or tight");
+    throw std::runtime_error(
+        "[map] mode = \"hard-reset\" is not for PPP: use none, loose or tight");
   }
   return config;
 }

@@ -95,9 +95,10 @@ void add_run_options(CLI::App* sub, RunOptions& options, WritePage* write_page) 
              "Write the fused state every 100 ms to this file, with what its aids said");
   add_output(sub, "--nmea", options.nmea,
              "Write GGA, RMC, GST and HDT sentences of the fused state, once a second");
-  sub->add_option("--map", options.map,
-                  "OpenStreetMap file, or network file or tiled map of `maploop map build`: the fused "
-                  "state is matched to its roads")
+  sub->add_option(
+         "--map", options.map,
+         "OpenStreetMap file, or network file or tiled map of `maploop map build`: the fused "
+         "state is matched to its roads")
       ->check(existing_file());
   add_choice(sub, "--map-mode", options.map_mode,
              "none; loose, the default where there is a map: matched, and nothing fed back; tight: "

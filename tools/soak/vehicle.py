@@ -181,11 +181,11 @@ class Observer:
         return None
 
 
-def squared_error(state, place):
-    """Returns the squared horizontal distance of a state to a place (degrees), in the state's own sigmas."""
+def errors(state, place):
+    """Returns the horizontal distance of a state from a place (degrees): squared, in the state's own sigmas, and in m."""
     latitude, longitude = (math.radians(angle) for angle in place)
     north = (latitude - state["origin_latitude"]) * EARTH * (1.0 - 0.00669438 * (1.0 - 1.5 * math.sin(latitude) ** 2))
     east = (longitude - state["origin_longitude"]) * EARTH * math.cos(latitude) * (1.0 + 0.00335281 * math.sin(latitude) ** 2)
     x, y = state["position_enu"][0] - east, state["position_enu"][1] - north
     (a, b), (_, d) = (row[:2] for row in state["covariance"][:2])
-    return (d * x * x - 2.0 * b * x * y + a * y * y) / (a * d - b * b)
+    return (d * x * x - 2.0 * b * x * y + a * y * y) / (a * d - b * b), math.hypot(x, y)
