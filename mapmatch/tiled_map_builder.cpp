@@ -24,7 +24,7 @@ void each(const osmium::io::File& file, bits kinds, Visit visit) {
 
 // Returns the file behind links, which stay. Devices and pipes are not replaced by a file.
 std::filesystem::path replaceable(const std::filesystem::path& file) {
-  const std::filesystem::path target = std::filesystem::weakly_canonical(file);
+  std::filesystem::path target = std::filesystem::weakly_canonical(file);
   if (std::filesystem::exists(target) && !std::filesystem::is_regular_file(target)) {
     throw std::runtime_error("cannot write the tiled map " + file.string() +
                              ": it is not a regular file; give another name");

@@ -1,11 +1,20 @@
 """What must hold of a vehicle that runs for hours, as functions of what was observed."""
 import math
+import re
 
 WRONG = 11.83  # squared distance in sigmas of what 0.27 % of honest positions exceed, two dimensions: 3 sigma of one
 LASTING = 5.0  # s
 WARM_UP = 120.0  # s, after which a process has taken the memory that it needs
 MOST_GROWTH = 1.0  # MB an hour, beside what the slope's own standard error explains
 IN_FLIGHT = 64  # samples by which a ring's counters may differ, which are read one after the other
+
+# Sentences of HEALTH that are no warning: of a sensor that the vehicle has not, and of a silence that is over.
+NO_WARNING = re.compile(r"there is none|silent for [^;]* from [^;]* on$")
+
+
+def tells_of_a_sensor(sentences):
+    """Returns whether a sentence of HEALTH says that a sensor, or the filter, is not well now."""
+    return any(s.startswith(("imu", "gnss", "fusion")) and not NO_WARNING.search(s) for s in sentences)
 
 
 def slope(samples):

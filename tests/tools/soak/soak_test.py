@@ -56,6 +56,10 @@ class Checks(unittest.TestCase):
         self.assertEqual(checks.wrong_stretches(at((100, 151))), [(10.0, 15.1, 4.0)])
         self.assertEqual(checks.wrong_stretches(at((900, 2000))), [(90.0, 99.9, 4.0)])
 
+    def test_only_warnings_of_the_present_count(self):
+        self.assertFalse(checks.tells_of_a_sensor(["camera: there is none; the rest goes without", "imu: silent for 5.3 s from 0.0 s on"]))
+        self.assertTrue(checks.tells_of_a_sensor(["velodyne: there is none", "imu: stale, nothing new for 2.31 s"]))
+
     def test_errors_are_in_the_states_own_sigmas(self):
         state = {"origin_latitude": math.radians(49.0), "origin_longitude": math.radians(8.4), "position_enu": [30.0, 0.0, 0.0],
                  "covariance": [[100.0, 0.0], [0.0, 25.0]]}
