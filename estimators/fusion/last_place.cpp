@@ -16,6 +16,12 @@ constexpr double settled_place = 0.5;         // m at once, as much again after 
 constexpr double settled_azimuth = 0.0175;    // rad (1 deg), the same
 constexpr double settled_tilt = 0.0087;       // rad (0.5 deg): load
 constexpr double standing_speed_sigma = 0.1;  // m/s
+// A run of which so little time has passed may have ended in the middle of a drive, at a traffic
+// light: the car may have driven off since.
+constexpr Duration interrupted = std::chrono::seconds(60);
+constexpr double drives_off = 1.0;                     // m/s^2
+constexpr double most_driven = 40.0, most_speed = 10;  // m, m/s
+constexpr double slope = 0.05;
 constexpr Duration longest_standing = std::chrono::hours(24 * 365);
 // Samples are delivered later than they are stamped, and clocks of one machine differ by less.
 constexpr Duration most_ahead = std::chrono::seconds(1);
@@ -33,10 +39,13 @@ void stand(KnownStart& k, Duration age, const FusionParameters& p) {
   // (8) of METHOD.md
   const double kept = std::exp(-to_seconds(age) / p.gnss_offset_time);
   k.stamp += age;
+  const double t = age < interrupted ? to_seconds(age) : 0.0;
+  const double driven = std::min(0.5 * drives_off * t * t, most_driven);
   k.speed = 0.0;
-  k.speed_sigma = standing_speed_sigma;
+  k.speed_sigma = std::hypot(standing_speed_sigma, std::min(drives_off * t, most_speed));
   for (int i = 0; i < 3; ++i) {
-    const double sigma = std::hypot(k.position_sigma[i], settled_place * growth);
+    const double sigma = std::hypot(k.position_sigma[i], settled_place * growth,
+                                    i == index::up ? slope * driven : driven);
     const double offset = kept * k.fix_offset_sigma[i];
     const double now = std::sqrt(offset * offset + 1.0 - kept * kept);
     if (now > 0.0) k.fix_offset_correlation[i] *= k.position_sigma[i] / sigma * offset / now;

@@ -30,8 +30,9 @@ class Hazards:
         return getattr(self, "_" + kind.replace(" ", "_"))()
 
     def end(self):
-        self._end()
-        self._end = lambda: None
+        """Ends what was begun, if anything was."""
+        end, self._end = self._end, lambda: None
+        end()
 
     def _paused(self):
         self._vehicle.signal(signal.SIGSTOP)

@@ -93,8 +93,10 @@ TEST(LastPlace, OfAVehicleThatStoodHoldsAndIsLessCertainTheLongerItIsAway) {
   ASSERT_EQ(soon.use, PlaceUse::started);
   EXPECT_EQ(soon.start.stamp, place.stamp + seconds(3));
   EXPECT_EQ(soon.start.position, place.position);
-  EXPECT_NEAR(soon.start.position_sigma.x(), std::hypot(1.0, 0.5), 0.01);
-  EXPECT_NEAR(soon.start.position_sigma.z(), std::hypot(2.0, 0.5), 0.01);
+  EXPECT_NEAR(soon.start.position_sigma.x(), std::hypot(1.0, 0.5, 4.5), 0.01) << "it may drive";
+  EXPECT_NEAR(soon.start.position_sigma.z(), std::hypot(2.0, 0.5, 0.225), 0.01);
+  const PlaceStart later = after(std::chrono::minutes(2));
+  EXPECT_NEAR(later.start.position_sigma.x(), std::hypot(1.0, 0.5), 0.05) << "it was left";
   ASSERT_EQ(month.use, PlaceUse::started);
   EXPECT_GT(month.start.position_sigma.y(), 3.0);
   EXPECT_LT(month.start.position_sigma.y(), 4.0);
@@ -234,6 +236,15 @@ TEST(WarmStart, AFixElsewhereMakesTheFilterStartAsWithoutIt) {
       expect_as_cold(filter, all, drive.at(5.5));
     }
   }
+}
+
+TEST(WarmStart, AVehicleThatHasDrivenOffMeanwhileIsWithinItsSigmas) {
+  const SyntheticDrive drive = standing();
+  const ReducedImuFilter filter = started(place_at(drive, 9.0), measured(drive, 14.0, 14.1, false));
+  const NavState nav = *filter.state_at(drive.at(14.1));
+  EXPECT_EQ(filter.place(), PlaceUse::started);
+  EXPECT_GT(error(nav, drive, 14.1), 10.0) << "it is not where it stood";
+  EXPECT_LT(error(nav, drive, 14.1), 2.0 * horizontal_sigma(nav));
 }
 
 TEST(WarmStart, AVehicleThatWasTurnedIsSeenWhenItDrives) {
