@@ -16,12 +16,12 @@ constexpr double settled_place = 0.5;         // m at once, as much again after 
 constexpr double settled_azimuth = 0.0175;    // rad (1 deg), the same
 constexpr double settled_tilt = 0.0087;       // rad (0.5 deg): load
 constexpr double standing_speed_sigma = 0.1;  // m/s
-// A run of which so little time has passed may have ended in the middle of a drive, at a traffic
-// light: the car may have driven off since.
+// A run that ended within this time may have ended in the middle of a drive, at a traffic light:
+// the car may have driven off since.
 constexpr Duration interrupted = std::chrono::seconds(60);
-constexpr double drives_off = 1.0;                     // m/s^2
-constexpr double most_driven = 40.0, most_speed = 10;  // m, m/s
-constexpr double slope = 0.05;
+constexpr double drives_off = 1.0;                       // m/s^2
+constexpr double most_driven = 40.0, most_speed = 10.0;  // m, m/s
+constexpr double slope = 0.05;                           // of the road
 constexpr Duration longest_standing = std::chrono::hours(24 * 365);
 // Samples are delivered later than they are stamped, and clocks of one machine differ by less.
 constexpr Duration most_ahead = std::chrono::seconds(1);
