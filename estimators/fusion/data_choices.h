@@ -30,6 +30,10 @@ inline constexpr DataChoice doubt_choice{
     "simulated towns 1 to 3, KITTI 00, 02, 03, 04 and five drives of the car in Oakville",
     "above what sensors without a fault reach, but for one parking lot",
     "none; the fault matrix is scored on town 13 and drive 0013"};
+inline constexpr DataChoice course_velocity_choice{
+    "simulated drives between houses 4, 10, 12, 16, 18, 20",
+    "above what their first right velocities have, below those that are wrong by 5 to 15 m/s",
+    "between houses, drives 11 to 20"};
 inline constexpr DataChoice overconfidence_choice{
     "KITTI odometry sequences, 60 s without GNSS", "mean NEES of 2.9 to 4 where 2 is expected",
     "the map in the loop, also on wrong maps, on KITTI"};

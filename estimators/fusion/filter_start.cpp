@@ -21,7 +21,7 @@ bool knows_course(const FilterState& state) {
 
 Outcome ReducedImuFilter::start(const GnssFix& fix) {
   const Reason reason = check_fix(fix, parameters_);
-  if (reason == Reason::too_slow) {
+  if (reason == Reason::no_course) {
     status_.phase = Phase::waiting_for_motion;
     if (!slow_fix_ || slow_fix_->stamp < fix.stamp) slow_fix_ = fix;
     if (!has_origin_) set_origin(fix.position);
@@ -83,7 +83,7 @@ bool ReducedImuFilter::moved_by(const GnssFix& whole) {
     return false;
   const GnssFix fix = whole.alone();
   const Reason reason = check_fix(fix, parameters_);
-  if (reason != Reason::none && reason != Reason::too_slow) return false;
+  if (reason != Reason::none && reason != Reason::no_course) return false;
   const auto at_position = predicted(fix.stamp), at_velocity = predicted(fix.velocity_stamp);
   if (!at_position || !at_velocity) return false;
   if (status_.place == PlaceUse::started) {
@@ -92,7 +92,7 @@ bool ReducedImuFilter::moved_by(const GnssFix& whole) {
     if (!(apart <= parameters_.gnss_position_gate)) return true;
     status_.place = PlaceUse::seen;
   }
-  if (reason == Reason::too_slow) return false;
+  if (reason == Reason::no_course) return false;
   const bool course = knows_course(*at_velocity);
   const auto apart = [&] {
     return velocity_innovation(*at_velocity, fix, at_velocity->yaw_rate, parameters_)

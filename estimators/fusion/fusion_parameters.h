@@ -49,14 +49,16 @@ struct FusionParameters {
   double max_origin_distance = 50e3;  // m
 
   // Start, from one GNSS fix.
-  double min_course_speed = 2.0;       // m/s, from which a course starts the azimuth
-  double max_stamp_offset = 0.2;       // s
-  double min_position_sigma = 0.1;     // m
-  double min_velocity_sigma = 0.03;    // m/s
-  double start_course_sigma = 0.0087;  // rad (0.5 deg)
-  double start_slope_sigma = 0.0087;   // rad (0.5 deg)
-  double start_roll_sigma = 0.035;     // rad (2 deg)
-  double start_acceleration = 3.0;     // m/s^2
+  double min_course_speed = 2.0;           // m/s, from which a course starts the azimuth
+  double max_course_velocity_sigma = 1.0;  // m/s, up to which it does
+  double max_stamp_offset = 0.2;           // s
+  double min_position_sigma = 0.1;         // m
+  double min_velocity_sigma = 0.03;        // m/s
+  double start_course_sigma = 0.0087;      // rad (0.5 deg)
+  double start_slope_sigma = 0.0087;       // rad (0.5 deg)
+  double road_slope_sigma = 0.1;           // rad
+  double start_roll_sigma = 0.035;         // rad (2 deg)
+  double start_acceleration = 3.0;         // m/s^2
 
   // Inertial sensors.
   double gyro_noise = 8.7e-5;                 // rad/sqrt(s) (0.3 deg/sqrt(h)), angle random walk

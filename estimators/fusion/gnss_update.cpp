@@ -128,7 +128,7 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
                             const FusionParameters& p) {
   LastingError& witness = state.contradictions.of(Witness::fix_position);
   const auto correct = [&](const Innovation<3>& innovation) {
-    return apply_gated(state, innovation, p.gnss_position_gate, Reason::position_gate, {},
+    return apply_gated(state, innovation, p.gnss_position_gate, Reason::position_gate, p.max_tilt,
                        witness.excess(2, p.doubt_scatter));
   };
   if (fix.increment) doubt_position_with_clone(state, fix.increment->growth);
@@ -163,7 +163,7 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
 Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_rate,
                             const FusionParameters& p) {
   const auto correct = [&](const Innovation<3>& innovation) {
-    return apply_gated(state, innovation, p.gnss_velocity_gate, Reason::velocity_gate);
+    return apply_gated(state, innovation, p.gnss_velocity_gate, Reason::velocity_gate, p.max_tilt);
   };
   const Innovation<3> innovation = velocity_innovation(state, fix, yaw_rate, p);
   follow(state, Witness::fix_velocity, innovation, p);

@@ -1,5 +1,6 @@
 #include "estimators/fusion/initial_state.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -24,6 +25,24 @@ Eigen::Vector3d velocity_of_axle(const Eigen::Vector3d& antenna, double yaw_rate
     axle = antenna - rotation_enu_body(level) * Eigen::Vector3d(0.0, 0.0, yaw_rate).cross(arm);
   }
   return axle;
+}
+
+// Returns the largest standard deviation of the horizontal velocity, m/s.
+double velocity_sigma(const GnssFix& fix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
+      fix.velocity_covariance.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()));
+}
+
+// Corrects a velocity by what is known of roads: they climb by zero, give or take their slope. The
+// rest of the velocity is corrected by its correlation with the error of the climb: (39) of
+// METHOD.md.
+void keep_to_the_road(Eigen::Vector3d& velocity, Eigen::Matrix3d& covariance,
+                      const FusionParameters& p) {
+  const double climb = p.road_slope_sigma * velocity.head<2>().norm();
+  const Eigen::Vector3d gain = covariance.col(2) / (covariance(2, 2) + climb * climb);
+  velocity -= gain * velocity.z();
+  covariance -= (gain * covariance.row(2)).eval();
 }
 
 // Adds the variances that no start provides: biases, scales and the lasting error of fixes.
@@ -142,7 +161,10 @@ Reason check_fix(const GnssFix& fix, const FusionParameters& parameters) {
     return Reason::stamps_apart;
   }
   if (stamped_after_delivery(fix, parameters)) return Reason::after_delivery;
-  if (fix.velocity_enu.head<2>().norm() < parameters.min_course_speed) return Reason::too_slow;
+  if (fix.velocity_enu.head<2>().norm() < parameters.min_course_speed ||
+      velocity_sigma(fix) > parameters.max_course_velocity_sigma) {
+    return Reason::no_course;
+  }
   return Reason::none;
 }
 
@@ -152,7 +174,12 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   const Time start = start_stamp(fix);
   const double position_age = to_seconds(fix.stamp - start);
   const double velocity_age = to_seconds(fix.velocity_stamp - start);
-  const Eigen::Vector3d v = velocity_of_axle(fix.velocity_enu, yaw_rate, p);
+  Eigen::Vector3d antenna = fix.velocity_enu;
+  Eigen::Matrix3d velocity_covariance = fix.velocity_covariance + p.min_velocity_sigma *
+                                                                      p.min_velocity_sigma *
+                                                                      Eigen::Matrix3d::Identity();
+  keep_to_the_road(antenna, velocity_covariance, p);
+  const Eigen::Vector3d v = velocity_of_axle(antenna, yaw_rate, p);
   const double horizontal = v.head<2>().norm();
   const double length = v.norm();
 
@@ -175,9 +202,8 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
       -v.z() * v.y() / (length * length * horizontal), horizontal / (length * length);
   Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Zero();
   C.topLeftCorner<3, 3>() = fix.position_covariance;
-  C.bottomRightCorner<3, 3>() = fix.velocity_covariance;
+  C.bottomRightCorner<3, 3>() = velocity_covariance;
   C.diagonal().head<3>().array() += p.min_position_sigma * p.min_position_sigma;
-  C.diagonal().tail<3>().array() += p.min_velocity_sigma * p.min_velocity_sigma;
 
   // The pitch is the climb minus the climb offset.
   static_assert(speed == 3 && azimuth == 4 && pitch == 5 && roll == 6);

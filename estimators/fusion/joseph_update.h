@@ -3,7 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <initializer_list>
+#include <limits>
 
 #include "estimators/fusion/filter_state.h"
 #include "estimators/fusion/outcome.h"
@@ -54,29 +57,34 @@ struct Innovation {
 // counts in the gain and in the covariance.
 using Considered = std::initializer_list<int>;
 
-// Corrects the state and the covariance. The covariance is (I - KH) P (I - KH)^T + K R K^T
-// multiplied out, which holds for any gain, so a rounding error of the gain has an effect of second
-// order only. The cost is that of the `rows` rows only.
+// Returns by how much the vehicle leans, rad.
+inline double lean(const StateVector& x) {
+  return std::max(std::abs(x[index::pitch]), std::abs(x[index::roll]));
+}
+
+// Corrects the state and the covariance. If the vehicle would then lean by more than `max_tilt`
+// (rad), and more than before, it changes nothing and returns false: a velocity against the travel
+// could otherwise turn the vehicle upside down, which mirrors its azimuth. The covariance is (I -
+// KH) P (I - KH)^T + K R K^T multiplied out, which holds for any gain, so a rounding error of the
+// gain has an effect of second order only. The cost is that of the `rows` rows only.
 template <int rows>
-void joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innovation,
-                   Considered considered = {});
+bool joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innovation,
+                   Considered considered = {},
+                   double max_tilt = std::numeric_limits<double>::infinity());
 
 // Applies one measurement of any kind at the state's stamp. If it contradicts the prediction by
-// more than `gate` (chi-square, `rows` degrees of freedom), it is refused with `reason` and the
-// state does not change. If the sensor's innovations have lately been larger than their covariance
-// by the factor `excess`, a measurement is judged as it is, but has less weight.
+// more than `gate` (chi-square, `rows` degrees of freedom), it is refused with `reason`, and if it
+// would lean the vehicle by more than `max_tilt`, for that; the state does not change then. If the
+// sensor's innovations have lately been larger than their covariance by the factor `excess`, a
+// measurement is judged as it is, but has less weight.
 template <int rows>
 Outcome apply_gated(FilterState& state, const Innovation<rows>& innovation, double gate,
-                    Reason reason, Considered considered = {}, double excess = 1.0) {
+                    Reason reason, double max_tilt, double excess = 1.0) {
   if (!(innovation.nis(state.P) <= gate)) return refused(reason);  // (10) of METHOD.md
-  if (excess > 1.0) {
-    Innovation<rows> weaker = innovation;
-    weaker.R += (excess - 1.0) * innovation.covariance(state.P);
-    joseph_update(state.x, state.P, weaker, considered);
-  } else {
-    joseph_update(state.x, state.P, innovation, considered);
-  }
-  return {};
+  Innovation<rows> weighted = innovation;
+  if (excess > 1.0) weighted.R += (excess - 1.0) * innovation.covariance(state.P);
+  const bool done = joseph_update(state.x, state.P, weighted, {}, max_tilt);
+  return done ? Outcome{} : refused(Reason::implausible_tilt);
 }
 
 // The instances are compiled once, in joseph_update.cpp.

@@ -75,13 +75,13 @@ Outcome apply_map(FilterState& state, const MapFeedback& feedback, const LocalFr
   Outcome azimuth;
   if (feedback.azimuth) {
     azimuth = apply_gated(state, link_azimuth_innovation(state, feedback), p.map_azimuth_gate,
-                          Reason::link_azimuth_gate);
+                          Reason::link_azimuth_gate, p.max_tilt);
   }
   Outcome outcome = azimuth;
   if (feedback.position) {
     const auto correct = [&] {
       return apply_gated(state, line_innovation(state, feedback, frame), p.map_position_gate,
-                         Reason::line_gate);
+                         Reason::line_gate, p.max_tilt);
     };
     outcome = correct();
     // While the last GNSS fix is recent enough to be correlated with the present error, a

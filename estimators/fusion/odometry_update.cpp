@@ -105,10 +105,9 @@ Outcome correct(FilterState& state, const RelativeMotion& motion, const Innovati
   if (!outcome.refused() && p.use_odometry_azimuth && p.chain_odometry_azimuth) {
     chain(state, motion);
     outcome = apply_gated(state, chained_azimuth_innovation(state, p), p.speed_gate,
-                          Reason::rotation_gate);
+                          Reason::rotation_gate, p.max_tilt);
   }
-  if (!outcome.refused() && (std::abs(state.x[index::pitch]) > p.max_tilt ||
-                             std::abs(state.x[index::roll]) > p.max_tilt)) {
+  if (!outcome.refused() && lean(state.x) > std::max(p.max_tilt, lean(x))) {
     outcome = refused(Reason::implausible_tilt);
   }
   if (outcome.refused()) {

@@ -41,7 +41,7 @@ enum class Reason : std::uint8_t {
   position_gate,        // position contradicts the prediction
   velocity_gate,        // velocity contradicts the prediction
   already_started,      // the configuration uses fixes only to start
-  too_slow,             // a slow fix has no course; the filter waits for a moving one
+  no_course,            // of a slow or an uncertain velocity; the filter waits for a better one
   stamps_apart,         // position and velocity are too far apart in time
   too_far_from_origin,  // a start farther away than max_origin_distance
   // These refuse map feedback.
@@ -133,8 +133,8 @@ constexpr std::string_view to_string(Reason reason) {
       return "GNSS velocity contradicts the prediction";
     case Reason::already_started:
       return "GNSS after the start (GNSS+ in the configuration uses it)";
-    case Reason::too_slow:
-      return "too slow for a course";
+    case Reason::no_course:
+      return "too slow or too uncertain for a course";
     case Reason::stamps_apart:
       return "position and velocity too far apart in time";
     case Reason::too_far_from_origin:

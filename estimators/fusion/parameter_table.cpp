@@ -77,6 +77,10 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
       {"min_course_speed", &P::min_course_speed, 0.1, large, "m/s", expert,
        "Speed from which the course of a fix starts the azimuth. There 0.1 m/s of velocity noise "
        "is 3 deg of course."},
+      {"max_course_velocity_sigma", &P::max_course_velocity_sigma, 0.01, large, "m/s", expert,
+       "Standard deviation of the horizontal velocity of a fix up to which its course starts the "
+       "azimuth. Between houses, a first velocity that is less certain is often wrong by many.",
+       course_velocity_choice},
       {"max_stamp_offset", &P::max_stamp_offset, 0.0, 2.0, "s", expert,
        "Largest difference between the stamps of a fix's position and velocity."},
       {"min_position_sigma", &P::min_position_sigma, tiny, large, "m", expert,
@@ -88,6 +92,9 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "Standard deviation of the course against the body at the start: side slip and mounting."},
       {"start_slope_sigma", &P::start_slope_sigma, tiny, 1.0, "rad", expert,
        "Standard deviation of the climb against the pitch at the start: suspension."},
+      {"road_slope_sigma", &P::road_slope_sigma, tiny, 1.0, "rad", expert,
+       "Standard deviation of the slope of roads. It corrects the velocity of the fix that starts "
+       "the filter: a car does not climb steeply."},
       {"start_roll_sigma", &P::start_roll_sigma, tiny, 1.0, "rad", expert,
        "Standard deviation of the roll at the start: cross fall of the road and suspension."},
       {"start_acceleration", &P::start_acceleration, 0.0, large, "m/s^2", expert,

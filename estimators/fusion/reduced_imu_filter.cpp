@@ -96,7 +96,7 @@ Outcome ReducedImuFilter::add(const GnssFix& fix) {
   if (moved_by(fix)) forget_place(start_stamp(fix));
   if (!initialized_) return start(fix);
   Reason reason = parameters_.use_gnss ? check_fix(fix, parameters_) : Reason::already_started;
-  if (reason == Reason::too_slow) reason = Reason::none;  // only a start needs a course
+  if (reason == Reason::no_course) reason = Reason::none;  // only a start needs a course
   const EventKey velocity{fix.velocity_stamp, EventKind::gnss_velocity, fix.sequence};
   const EventKey position{fix.stamp, EventKind::gnss_position, fix.sequence};
   if (const auto refusal = refuse(reason, {velocity, position}, 2)) return *refusal;

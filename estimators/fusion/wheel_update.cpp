@@ -18,7 +18,7 @@ Innovation<1> wheel_innovation(const FilterState& state, const WheelSpeed& sampl
 Outcome apply_wheel(FilterState& state, const WheelSpeed& sample, const FusionParameters& p) {
   const Innovation<1> innovation = wheel_innovation(state, sample, p);
   const auto correct = [&] {
-    return apply_gated(state, innovation, p.speed_gate, Reason::wheel_gate);
+    return apply_gated(state, innovation, p.speed_gate, Reason::wheel_gate, p.max_tilt);
   };
   follow(state, Witness::wheel_speed, innovation, p);
   Outcome outcome = correct();

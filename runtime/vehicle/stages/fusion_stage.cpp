@@ -29,7 +29,7 @@ constexpr const char* scattering = "they scatter more than they say of themselve
 bool wanted(fusion::Reason reason) {
   using enum fusion::Reason;
   return reason != duplicate && reason != before_start && reason != not_configured &&
-         reason != already_started && reason != too_slow;
+         reason != already_started && reason != no_course;
 }
 
 // Both outputs have the same times.

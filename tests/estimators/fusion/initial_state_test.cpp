@@ -25,8 +25,14 @@ GnssFix moving_fix() {
   return fix;
 }
 
+FusionParameters any_slope() {
+  FusionParameters p;
+  p.road_slope_sigma = 1e9;
+  return p;
+}
+
 TEST(InitialState, IsTheFix) {
-  const FilterState s = initial_state(moving_fix(), LocalFrame(test_origin()), {});
+  const FilterState s = initial_state(moving_fix(), LocalFrame(test_origin()), any_slope());
   EXPECT_EQ(s.stamp, SyntheticDrive::at(10.0));
   EXPECT_LT((s.x.segment<3>(index::east) - Vector3d(100.0, 50.0, 3.0)).norm(), 1e-6);
   EXPECT_NEAR(s.x[index::speed], std::sqrt(100.25), 1e-12);
@@ -37,7 +43,7 @@ TEST(InitialState, IsTheFix) {
 TEST(InitialState, StartsAtTheOlderVelocityAndCarriesThePositionThere) {
   GnssFix fix = moving_fix();
   fix.velocity_stamp -= from_seconds(0.06);
-  const FilterState s = initial_state(fix, LocalFrame(test_origin()), {});
+  const FilterState s = initial_state(fix, LocalFrame(test_origin()), any_slope());
   EXPECT_EQ(s.stamp, fix.velocity_stamp);
   const Vector3d expected = Vector3d(100.0, 50.0, 3.0) - 0.06 * fix.velocity_enu;
   EXPECT_LT((s.x.segment<3>(index::east) - expected).norm(), 1e-6);
@@ -59,6 +65,7 @@ TEST(InitialState, CovarianceIsThatOfNoisyFixes) {
   p.start_course_sigma = p.start_slope_sigma = p.climb_offset_sigma = 1e-8;
   p.gnss_lever_sigma = 1e-8;
   p.min_position_sigma = p.min_velocity_sigma = p.speed_scale_sigma = 1e-8;
+  p.road_slope_sigma = 1e9;
   const LocalFrame frame(test_origin());
   GnssFix fix = moving_fix();
   fix.velocity_stamp -= from_seconds(0.2);
@@ -87,6 +94,19 @@ TEST(InitialState, CovarianceIsThatOfNoisyFixes) {
   EXPECT_LT(difference.cwiseAbs().maxCoeff(), 0.08);
 }
 
+// It is the first velocity of a receiver between houses; the car drove at 11 m/s to the north.
+TEST(InitialState, ACarDoesNotStartOnASteepClimb) {
+  GnssFix fix = moving_fix();
+  fix.velocity_enu = {-3.5, 0.4, 4.8};
+  const Vector3d sigma(1.5, 1.7, 5.1);
+  fix.velocity_covariance << 1.0, 0.5, -0.8, 0.5, 1.0, -0.9, -0.8, -0.9, 1.0;
+  fix.velocity_covariance =
+      (sigma.asDiagonal() * fix.velocity_covariance * sigma.asDiagonal()).eval();
+  const FilterState s = initial_state(fix, LocalFrame(test_origin()), {});
+  EXPECT_LT(std::abs(s.x[index::pitch]), 0.05);
+  EXPECT_GT(std::cos(s.x[index::azimuth]), 0.5) << "the climb is correlated with it";
+}
+
 TEST(CheckFix, NamesWhatIsWrong) {
   const FusionParameters p;
   EXPECT_EQ(check_fix(moving_fix(), p), Reason::none);
@@ -105,7 +125,8 @@ TEST(CheckFix, NamesWhatIsWrong) {
             Reason::invalid_covariance);
   EXPECT_EQ(reason([](GnssFix& f) { f.velocity_covariance(0, 1) = 0.5; }),
             Reason::invalid_covariance);
-  EXPECT_EQ(reason([](GnssFix& f) { f.velocity_enu = {1.0, 1.0, 0.0}; }), Reason::too_slow);
+  EXPECT_EQ(reason([](GnssFix& f) { f.velocity_enu = {1.0, 1.0, 0.0}; }), Reason::no_course);
+  EXPECT_EQ(reason([](GnssFix& f) { f.velocity_covariance(1, 1) = 1.1; }), Reason::no_course);
   EXPECT_EQ(reason([](GnssFix& f) { f.velocity_stamp = {}; }), Reason::stamps_apart);
   EXPECT_EQ(reason([](GnssFix& f) { f.velocity_stamp = Time::max(); }), Reason::stamps_apart);
   EXPECT_EQ(reason([](GnssFix& f) { f.stamp = f.velocity_stamp = Time::min(); }),

@@ -28,7 +28,7 @@ TEST(Start, WaitsForAFixThatMovesAndKeepsWhatArrivesMeanwhile) {
     }
     const Outcome outcome = filter.add(drive.fix(second));
     if (outcome.refused()) {
-      EXPECT_EQ(outcome.reason, Reason::too_slow);
+      EXPECT_EQ(outcome.reason, Reason::no_course);
       EXPECT_EQ(filter.status().phase, Phase::waiting_for_motion);
       const auto state = filter.state_without_course_at(drive.at(second + 0.5));
       ASSERT_TRUE(state);
@@ -59,7 +59,7 @@ TEST(Start, ASlowFixShowsThePlaceButNoDirection) {
   fix.velocity_enu = {0.5, 0.0, 0.0};
   fix.position_covariance = 4.0 * Eigen::Matrix3d::Identity();
   fix.velocity_covariance = 0.01 * Eigen::Matrix3d::Identity();
-  EXPECT_EQ(filter.add(fix).reason, Reason::too_slow);
+  EXPECT_EQ(filter.add(fix).reason, Reason::no_course);
   EXPECT_FALSE(filter.state_at(fix.stamp));
   EXPECT_FALSE(filter.state_without_course_at(fix.stamp - std::chrono::milliseconds(1)));
   const FusedState now = filter.state_without_course_at(fix.stamp).value();

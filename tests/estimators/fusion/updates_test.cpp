@@ -340,8 +340,33 @@ TEST_F(ApplyOdometry, ARowOfGatedMotionsMakesTheFilterDoubtItself) {
   EXPECT_EQ(state_.gated_in_a_row, 3) << "until a motion passes by itself";
 }
 
+// The velocity is against the travel. A vehicle that leans far back could follow it upside down.
+TEST(ApplyVelocity, DoesNotTurnTheVehicleUpsideDown) {
+  FusionParameters p;
+  p.gnss_velocity_gate = 1e9;
+  FilterState state;
+  state.x[index::speed] = 10.0;
+  state.x[index::pitch] = 0.7;
+  state.P = 1e-6 * StateMatrix::Identity();
+  state.P(index::pitch, index::pitch) = 1.0;
+  GnssFix fix;
+  fix.velocity_enu = {0.0, -10.0, 0.0};
+  fix.velocity_covariance = 0.01 * Eigen::Matrix3d::Identity();
+  const StateVector x = state.x;
+  const StateMatrix P = state.P;
+  EXPECT_EQ(apply_gnss_velocity(state, fix, 0.0, p), refused(Reason::implausible_tilt));
+  EXPECT_EQ(state.x, x);
+  EXPECT_EQ(state.P, P);
+
+  fix.velocity_enu = {0.0, 10.0, 0.0};
+  state.x[index::pitch] = 1.2;
+  EXPECT_EQ(apply_gnss_velocity(state, fix, 0.0, p), Outcome{}) << "it leans less than before";
+  EXPECT_LT(state.x[index::pitch], 1.2);
+}
+
 TEST_F(ApplyOdometry, ACorrectionThatLeansTheVehicleOverIsTakenBack) {
   parameters_.max_tilt = 0.06;  // the state's pitch is 0.07
+  motion_.rotation = motion_.rotation * Eigen::AngleAxisd(-1e-4, Eigen::Vector3d::UnitY());
   const StateVector before = state_.x;
   EXPECT_EQ(apply_odometry(state_, motion_, parameters_), refused(Reason::implausible_tilt));
   EXPECT_EQ(state_.x.head<index::distance>(), before.head<index::distance>());

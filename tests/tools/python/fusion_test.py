@@ -31,7 +31,7 @@ def test_a_vehicle_that_drives_straight_on_goes_north():
 
 def test_a_refusal_has_its_reason():
     f = maploop.FusionFilter()
-    assert f.add(fix(START, north_speed=0.0)) == "too slow for a course"
+    assert f.add(fix(START, north_speed=0.0)) == "too slow or too uncertain for a course"
     assert f.add(fix(START + 1, position_covariance=-np.eye(3))) == "invalid covariance"
     assert f.add(maploop.WheelSpeed(START, 1.0, 0.1)) == "not used by the configuration"
     assert f.add(maploop.ImuSample(START, [float("nan"), 0.0, 0.0], [0.0, 0.0, 0.0])) == "a value is not finite"
