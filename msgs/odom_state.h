@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 
 #include "msgs/frames.h"
+#include "msgs/nav_protection.h"
 #include "msgs/nav_state.h"
 #include "msgs/sample.h"
 
@@ -44,10 +46,11 @@ struct OdometryMount {
 // This is what the fusion gives out: the pose in the frame of the map, which fixes and roads may
 // move at once, and that in the frame of odometry. Both have the same stamp.
 struct FusedState : NavState {
-  OdomState odom;       // the pose in the frame of odometry
-  OdometryMount mount;  // of odometry's sensors, beside their description
+  OdomState odom;                           // the pose in the frame of odometry
+  OdometryMount mount;                      // of odometry's sensors, beside their description
+  std::optional<NavProtection> protection;  // ten times a second
 
-  void archive(auto& ar) { ar(static_cast<NavState&>(*this), odom, mount); }
+  void archive(auto& ar) { ar(static_cast<NavState&>(*this), odom, mount, protection); }
 };
 
 }  // namespace maploop

@@ -9,6 +9,7 @@
 
 #include "msgs/local_frame.h"
 #include "msgs/named_enum.h"
+#include "msgs/protection_levels.h"
 #include "msgs/sample.h"
 
 namespace maploop {
@@ -93,14 +94,6 @@ struct PppSatellite {
     ar(system, number, azimuth, elevation, cn0, code_used, phase_used, code_residual,
        phase_residual, refusal, slip);
   }
-};
-
-// Each is a distance from the position that contains the antenna except with the probability
-// `integrity_risk`; along and across the direction of travel, and up.
-struct ProtectionLevels {
-  double along = 0.0, across = 0.0, up = 0.0;  // m
-
-  void archive(auto& ar) { ar(along, across, up); }
 };
 
 // `stamp` is the epoch's. Without a position, the position, the velocity, their

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "msgs/protection_levels.h"
 #include "ppp/models/geodesy.h"
-#include "ppp/protection.h"
 
 namespace maploop::ppp {
 namespace {

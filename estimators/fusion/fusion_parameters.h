@@ -116,6 +116,7 @@ struct FusionParameters {
   double gnss_position_gate = 16.27;        // chi-square, 3 degrees of freedom
   double gnss_velocity_gate = 16.27;        // chi-square, 3 degrees of freedom
   int gnss_recover_after = 5;               // gated fixes in a row; twice as many start anew
+  int gnss_recover_speed_after = 2;         // gated velocities in a row, by their length alone
   double gnss_recovery_sigma = 20.0;        // m
   double gnss_recovery_course_sigma = 0.3;  // rad
   double fix_hold = 3.0;                    // s

@@ -71,6 +71,22 @@ const Matrix3d& velocity_covariance_of(const GnssFix& fix) {
   return fix.increment ? fix.increment->velocity_covariance : fix.velocity_covariance;
 }
 
+// Returns whether a velocity contradicts the state by its length alone: then the wheels slip, or
+// odometry is wrong, and the azimuth is right.
+bool contradicts_speed_alone(const FilterState& state, const Innovation<3>& innovation,
+                             double gate) {
+  const double climb = state.climb(), azimuth = state.x[index::azimuth];
+  Matrix3d axes;  // of the travel: forward, left, up
+  axes.row(0) = direction(azimuth, climb);
+  axes.row(1) << -std::cos(azimuth), std::sin(azimuth), 0.0;
+  axes.row(2) = axes.row(0).cross(axes.row(1));
+  Innovation<3> turned;
+  turned.residual = axes * innovation.residual;
+  turned.H = axes * innovation.H;
+  turned.R = axes * innovation.R * axes.transpose();
+  return turned.part<2>(1).nis(state.P) <= gate;
+}
+
 }  // namespace
 
 Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
@@ -168,9 +184,16 @@ Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_r
   const Innovation<3> innovation = velocity_innovation(state, fix, yaw_rate, p);
   follow(state, Witness::fix_velocity, innovation, p);
   Outcome outcome = correct(innovation);
+  const bool slips =
+      outcome.refused() && contradicts_speed_alone(state, innovation, p.gnss_velocity_gate);
   if (outcome.refused() && !state.refused_fixes.astray &&
-      ++state.velocity_gated_in_a_row == p.gnss_recover_after) {
-    doubt_with_clone(state, index::azimuth, p.gnss_recovery_course_sigma);
+      ++state.velocity_gated_in_a_row ==
+          (slips ? p.gnss_recover_speed_after : p.gnss_recover_after)) {
+    if (slips) {
+      state.P(index::speed, index::speed) += p.recovery_speed_sigma * p.recovery_speed_sigma;
+    } else {
+      doubt_with_clone(state, index::azimuth, p.gnss_recovery_course_sigma);
+    }
     ++state.recoveries;
     outcome = correct(velocity_innovation(state, fix, yaw_rate, p));
   }

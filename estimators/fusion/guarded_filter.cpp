@@ -60,6 +60,13 @@ bool GuardedFilter::lost(const NavState& state) const {
   return state.covariance(6, 6) > parameters_.lost_azimuth * parameters_.lost_azimuth;
 }
 
+std::optional<FusedState> GuardedFilter::without_map_at(Time t) const {
+  if (!copies_[0].filter) return std::nullopt;
+  auto free = copies_[0].filter->state_at(t);
+  if (free && lost(*free)) free.reset();
+  return free;
+}
+
 void GuardedFilter::copy_to(Copy& copy, Time t) {
   copy.filter = aided_;
   copy.born = t;

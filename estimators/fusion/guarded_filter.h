@@ -45,6 +45,10 @@ class GuardedFilter {
   FilterStatus status() const { return aided_.status(); }
   SelfCalibrations calibration() const { return aided_.calibration(); }
 
+  // Returns the state of the older map-free copy at `t`; nothing before the first feedback, or if
+  // its azimuth is lost.
+  std::optional<FusedState> without_map_at(Time t) const;
+
   // These work as those of ReducedImuFilter. The copies exist from the first feedback on.
   std::size_t largest_archive(bool with_feedback) const {
     return (with_feedback ? 3 : 1) * aided_.largest_archive() + 256;

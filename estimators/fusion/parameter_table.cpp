@@ -224,6 +224,9 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
       {"gnss_recover_after", &P::gnss_recover_after, 1, large, "fixes", expert,
        "Fixes gated in a row after which the filter doubts its own position. After twice as many "
        "it starts again at the fix."},
+      {"gnss_recover_speed_after", &P::gnss_recover_speed_after, 1, large, "fixes", expert,
+       "Velocities gated in a row after which the filter doubts its speed, if they contradict it "
+       "by their length alone: wheels slip."},
       {"gnss_recovery_sigma", &P::gnss_recovery_sigma, tiny, large, "m", expert,
        "Standard deviation of the position that the filter then assumes."},
       {"gnss_recovery_course_sigma", &P::gnss_recovery_course_sigma, tiny, 3.0, "rad", expert,

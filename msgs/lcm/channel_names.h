@@ -7,6 +7,7 @@ namespace maploop::channel_names {
 
 inline constexpr std::string_view nav_state = "NAV_STATE";
 inline constexpr std::string_view odom_state = "ODOM_STATE";
+inline constexpr std::string_view nav_protection = "NAV_PROTECTION";
 inline constexpr std::string_view visual_odometry = "VO";
 inline constexpr std::string_view lidar_odometry = "LIDAR_ODOMETRY";
 inline constexpr std::string_view odometry = "ODOMETRY";

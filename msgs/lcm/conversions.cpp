@@ -39,6 +39,27 @@ void convert(auto copy, Is<OdomState> auto& state, auto& m) {
 }
 MAPLOOP_CONVERSIONS(OdomState, maploop_lcm::odom_state_t)
 
+void convert_separation(auto copy, auto& separation, auto& m) {
+  copy(separation.known, m.known);
+  copy(separation.along, m.along);
+  copy(separation.across, m.across);
+  copy(separation.along_sigma, m.along_sigma);
+  copy(separation.across_sigma, m.across_sigma);
+}
+
+void convert(auto copy, Is<NavProtection> auto& protection, auto& m) {
+  copy.header(protection, m.header);
+  copy(protection.doubted, m.doubted);
+  copy(protection.risk, m.risk);
+  copy(protection.along, m.along);
+  copy(protection.across, m.across);
+  copy(protection.horizontal, m.horizontal);
+  convert_separation(copy, protection.without_map, m.without_map);
+  convert_separation(copy, protection.without_gnss, m.without_gnss);
+  convert_separation(copy, protection.without_odometry, m.without_odometry);
+}
+MAPLOOP_CONVERSIONS(NavProtection, maploop_lcm::nav_protection_t)
+
 void convert_motion(auto copy, auto& motion, auto& m) {
   copy.header(motion, m.header);
   copy.choice(motion.status, m.status, "relative_motion_t.status");

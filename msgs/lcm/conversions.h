@@ -12,6 +12,7 @@
 #include <maploop_lcm/map_doubt_t.hpp>
 #include <maploop_lcm/map_feedback_t.hpp>
 #include <maploop_lcm/map_match_t.hpp>
+#include <maploop_lcm/nav_protection_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
 #include <maploop_lcm/odom_state_t.hpp>
 #include <maploop_lcm/ppp_state_t.hpp>
@@ -31,6 +32,7 @@
 #include "msgs/map_doubt.h"
 #include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
+#include "msgs/nav_protection.h"
 #include "msgs/nav_state.h"
 #include "msgs/odom_state.h"
 #include "msgs/odometry.h"
@@ -43,6 +45,7 @@ namespace maploop {
 
 maploop_lcm::nav_state_t to_lcm(const NavState& state);
 maploop_lcm::odom_state_t to_lcm(const OdomState& state);
+maploop_lcm::nav_protection_t to_lcm(const NavProtection& protection);
 maploop_lcm::relative_motion_t to_lcm(const RelativeMotion& motion);
 maploop_lcm::lidar_motion_t to_lcm(const LidarMotion& motion);
 maploop_lcm::imu_t to_lcm(const ImuSample& sample);
@@ -65,6 +68,7 @@ maploop_lcm::lidar_scan_t to_lcm(const LidarScan& scan);
 // candidates than a match has, a size that contradicts the rest.
 NavState from_lcm(const maploop_lcm::nav_state_t& message);
 OdomState from_lcm(const maploop_lcm::odom_state_t& message);
+NavProtection from_lcm(const maploop_lcm::nav_protection_t& message);
 RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& message);
 LidarMotion from_lcm(const maploop_lcm::lidar_motion_t& message);
 ImuSample from_lcm(const maploop_lcm::imu_t& message);

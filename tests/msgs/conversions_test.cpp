@@ -102,10 +102,10 @@ T value_of(const auto& message) {
 template <class T>
 class Message : public ::testing::Test {};
 
-using Messages =
-    ::testing::Types<NavState, OdomState, RelativeMotion, LidarMotion, ImuSample, WheelSpeed,
-                     GnssFix, ReferencePose, MapMatch, MapDoubt, MapFeedback, PppState, Preview,
-                     Deadlines, SelfCalibration, Health, VehicleCalibration, StereoPair, LidarScan>;
+using Messages = ::testing::Types<NavState, OdomState, NavProtection, RelativeMotion, LidarMotion,
+                                  ImuSample, WheelSpeed, GnssFix, ReferencePose, MapMatch, MapDoubt,
+                                  MapFeedback, PppState, Preview, Deadlines, SelfCalibration,
+                                  Health, VehicleCalibration, StereoPair, LidarScan>;
 TYPED_TEST_SUITE(Message, Messages);
 
 template <class T>

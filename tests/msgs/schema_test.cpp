@@ -113,10 +113,11 @@ void expect_generated_fingerprints(const std::string& package) {
 TEST(Schema, FingerprintsAreThoseOfTheGeneratedCode) {
   using namespace maploop_lcm;
   expect_generated_fingerprints<
-      header_t, imu_t, gnss_fix_t, wheel_speed_t, nav_state_t, odom_state_t, reference_pose_t,
-      preview_t, relative_motion_t, lidar_motion_t, map_doubt_t, map_feedback_t, map_match_t,
-      map_candidate_t, latency_summary_t, histogram_t, missed_deadline_t, thread_health_t,
-      ring_health_t, sensor_health_t, deadlines_t, health_t>("maploop_lcm.");
+      header_t, imu_t, gnss_fix_t, wheel_speed_t, nav_state_t, odom_state_t, nav_protection_t,
+      separation_t, reference_pose_t, preview_t, relative_motion_t, lidar_motion_t, map_doubt_t,
+      map_feedback_t, map_match_t, map_candidate_t, latency_summary_t, histogram_t,
+      missed_deadline_t, thread_health_t, ring_health_t, sensor_health_t, deadlines_t, health_t>(
+      "maploop_lcm.");
   EXPECT_EQ(every_kind().fingerprint, static_cast<std::uint64_t>(every_kind_t::getHash()))
       << "it contains itself";
 }

@@ -80,6 +80,21 @@ for navigation_name, how in NAVIGATION.items():
     add_navigation(navigation_name, *how)
 
 
+# What the reference says of the protection levels.
+PROTECTION = {
+    "protection_beyond": ("1", lambda p: p["horizontal"]["beyond"] / p["moments"], "Share of the moments with an error beyond the horizontal level."),
+    "protection_along_beyond": ("1", lambda p: p["along"]["beyond"] / p["moments"], "The same along the way."),
+    "protection_across_beyond": ("1", lambda p: p["across"]["beyond"] / p["moments"], "The same across it."),
+    "protection_ratio": ("1", lambda p: p["largest_ratio"], "Largest ratio of a horizontal error to its level."),
+    "protection_median": ("m", lambda p: p["horizontal"]["median_m"], "Median of the horizontal level."),
+    "protection_above_10": ("1", lambda p: 1.0 - p["below_10_m"], "Share of the moments without a horizontal level below 10 m that holds."),
+    "protection_doubted": ("1", lambda p: p["doubted"] / p["moments"], "Share of the moments in which an aid is doubted, so that no level holds."),
+}
+
+for protection_name, (its_unit, figure, its_about) in PROTECTION.items():
+    METRICS[protection_name] = Metric(its_unit, lambda output, f=figure: f(output["protection"]), its_about, True)
+
+
 @metric("s")
 def unsaid(output):
     """Longest time of either before HEALTH named anything."""

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "msgs/protection_levels.h"
 #include "ppp/models/geodesy.h"
-#include "ppp/protection.h"
 
 namespace maploop::gnss {
 

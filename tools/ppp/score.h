@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "msgs/protection_levels.h"
 #include "ppp/filter/solution.h"
-#include "ppp/protection.h"
 #include "tools/ppp/truth.h"
 
 namespace maploop::gnss {
@@ -42,7 +42,7 @@ class Score {
  public:
   // Protection levels are for this integrity risk.
   Score(const Truth& truth, double integrity_risk)
-      : truth_(truth), factor_(ppp::integrity_factor(integrity_risk)) {}
+      : truth_(truth), factor_(integrity_factor(integrity_risk)) {}
 
   void add(const ppp::PppSolution& solution);
 

@@ -85,8 +85,8 @@ Errors errors_between(const std::vector<Sample>& samples, Time begin, Time end, 
 }  // namespace
 
 bool NavTrack::add(const NavState& state) {
-  constexpr std::uint64_t every = 10;
-  if (state.status == NavStatus::uninitialized || state.sequence % every != 0) return false;
+  if (state.status == NavStatus::uninitialized || state.sequence % NavProtection::every != 0)
+    return false;
   // A replay may go back.
   while (!states_.empty() && states_.back().stamp >= state.stamp) states_.pop_back();
   states_.push_back(state);

@@ -21,6 +21,7 @@
 #include "tools/match/match_score.h"
 #include "tools/replay/fusion_score.h"
 #include "tools/replay/outage_score.h"
+#include "tools/replay/protection_score.h"
 
 namespace maploop::tools {
 
@@ -84,7 +85,8 @@ struct ReplayResult {
   std::optional<Accuracy> fused;  // in the frame of the map
   std::optional<Accuracy> odom;   // the same in the frame of odometry
   std::optional<PppEpochs> ppp;
-  std::optional<fusion_score::Score> navigation;     // of NAV_STATE, as it was sent
+  std::optional<fusion_score::Score> navigation;  // of NAV_STATE, as it was sent
+  std::optional<fusion_score::ProtectionScore> protection;
   bool peer_reference = false;                       // of vehicle::Recording
   std::vector<fusion_score::OutageEnd> outage_ends;  // where the recording has fixes to score with
   std::optional<match::MatchScore> links;            // of MAP_MATCH, where the links are known

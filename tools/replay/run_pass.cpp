@@ -132,6 +132,7 @@ vehicle::Observer RunPass::observer() {
   o.ppp = [this](const PppState& state) { ppp_states[state.stamp] = state; };
   o.nav_state = [this, last = o.nav_state](const FusedState& state) {
     if (track.add(state)) odom_track.add(state, state.odom.position, state.odom.attitude);
+    if (state.protection) protection.push_back(*state.protection);
     last(state);
   };
   o.map_match = [this](const MapMatch& match) {
@@ -212,6 +213,7 @@ void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& 
   for (const vehicle::Naming& naming : result.vehicle.named) named = std::min(named, naming.at);
   result.navigation = fusion_score::score(pass.track, reference, recording.outages,
                                           recording.first_stamp, named, from);
+  result.protection = fusion_score::score(pass.protection, pass.track, reference, from);
   if (result.navigation)
     result.navigation->odom_percent = odom_percent(pass.odom_track.poses(), truth, from);
 }

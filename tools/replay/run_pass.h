@@ -80,7 +80,8 @@ struct RunPass {
   TrajectoryCollector odometry, lidar, fused, odom;  // at images
   TrajectoryCollector odom_track;                    // at the states of `track`
   fusion_score::NavTrack track;
-  std::optional<NavState> end;  // the last fused state
+  std::vector<NavProtection> protection;  // of the states of `track`
+  std::optional<NavState> end;            // the last fused state
   std::map<Time, PppState> ppp_states;
   std::map<Time, RoadMoment> matches;
   std::vector<CalibrationMoment> calibrations;  // once a second

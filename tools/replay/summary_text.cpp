@@ -130,6 +130,7 @@ void append_accuracies(std::string& text, const ReplayResult& r) {
   }
   append_calibration(text, r.vehicle.calibration);
   if (r.navigation) text += fusion_score::to_text(*r.navigation);
+  if (r.protection) text += fusion_score::to_text(*r.protection);
   if (r.links) text += "\nLinks driven against their labels\n" + match::to_text(*r.links);
   if (r.ppp) append_ppp(text, *r.ppp);
 }

@@ -55,6 +55,13 @@ std::string ppp_line(const PppState& state) {
   return line;
 }
 
+std::string protection_line(const NavProtection& p) {
+  return fmt::format(
+      "position: within {:.2f} m, {:.2f} along, {:.2f} across but for a risk of {:g}{}",
+      p.horizontal, p.along, p.across, p.risk,
+      p.doubted ? "; an aid is doubted, so these levels do not hold" : "");
+}
+
 }  // namespace
 
 std::vector<std::string> vehicle_lines(const Traffic& traffic) {
@@ -83,6 +90,8 @@ std::vector<std::string> vehicle_lines(const Traffic& traffic) {
   });
   of_last(maploop_lcm::deadlines_t{}, vehicle::channels::deadlines.name,
           [&](const Deadlines& deadlines) { lines.push_back(deadlines_line(deadlines)); });
+  of_last(maploop_lcm::nav_protection_t{}, vehicle::channels::nav_protection.name,
+          [&](const NavProtection& levels) { lines.push_back(protection_line(levels)); });
   of_last(maploop_lcm::ppp_state_t{}, vehicle::channels::ppp_state.name,
           [&](const PppState& state) { lines.push_back(ppp_line(state)); });
   return lines;

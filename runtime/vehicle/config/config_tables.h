@@ -39,7 +39,8 @@ void each_part(Config& config, Part&& part) {
   described(config.wheel);
   part(imu_table(), config);
   described(config.stereo, config.lidar, config.ppp, config.ppp.filter, config.ppp.filter.ground,
-            config.map, config.mapmatch, config.feedback, config.guard, config.fusion);
+            config.map, config.mapmatch, config.feedback, config.guard, config.protection,
+            config.fusion);
 }
 
 }  // namespace maploop::vehicle

@@ -13,6 +13,7 @@
 
 #include "estimators/fusion/fusion_parameters.h"
 #include "estimators/fusion/guard_parameters.h"
+#include "estimators/fusion/protection_parameters.h"
 #include "estimators/lidar/parameters.h"
 #include "estimators/stereo/parameters.h"
 #include "mapmatch/feedback_parameters.h"
@@ -111,6 +112,7 @@ struct VehicleConfig {
   mapmatch::MatchParameters mapmatch;
   mapmatch::FeedbackParameters feedback;
   fusion::GuardParameters guard;
+  fusion::ProtectionParameters protection;
   fusion::FusionParameters fusion;
   std::set<std::string, std::less<>> given;  // keys that the file has, as "fusion.climb_offset"
 };

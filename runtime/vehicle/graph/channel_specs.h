@@ -43,6 +43,9 @@ inline constexpr ChannelSpec nav_state =
 inline constexpr ChannelSpec odom_state =
     of_data(channel_names::odom_state, "odom_state_t", "fusion",
             "continuous pose in the frame of odometry, without absolute corrections", "100 Hz");
+inline constexpr ChannelSpec nav_protection = of_data(
+    channel_names::nav_protection, "nav_protection_t", "fusion",
+    "how far the fused position may be wrong, along and across the way, by stated risk", "10 Hz");
 inline constexpr ChannelSpec visual_odometry =
     of_data(channel_names::visual_odometry, "relative_motion_t", "stereo",
             "relative pose, covariance, quality", "10 Hz");
@@ -104,10 +107,11 @@ inline constexpr ChannelSpec self_calibration =
     of_run(channel_names::self_calibration, "self_calibration_t", "health",
            "what the filter has estimated of the car and its sensors", "1 Hz");
 
-inline constexpr std::array all{
-    nav_state,       odom_state, visual_odometry, lidar_odometry, odometry,    map_match, map_doubt,
-    map_feedback,    imu,        gnss_fix,        ppp_state,      wheel_speed, truth,     camera,
-    velodyne,        preview,    calibration,     replay_control, run,         deadlines, health,
-    self_calibration};
+inline constexpr std::array all{nav_state,      odom_state,  nav_protection,  visual_odometry,
+                                lidar_odometry, odometry,    map_match,       map_doubt,
+                                map_feedback,   imu,         gnss_fix,        ppp_state,
+                                wheel_speed,    truth,       camera,          velodyne,
+                                preview,        calibration, replay_control,  run,
+                                deadlines,      health,      self_calibration};
 }  // namespace channels
 }  // namespace maploop::vehicle

@@ -260,7 +260,7 @@ void Vehicle::Graph::make_stages(const VehicleCalibration& calibration,
       stages::stereo.budget + (rings.has(stages::lidar) ? stages::lidar.budget : Duration::zero());
   fusion = &add_stage<FusionStage>(
       fusion::GuardedFilter(fusion::ReducedImuFilter(config.fusion), guard_of(config)),
-      odometry_budget);
+      fusion::ProtectionMonitor(config.protection), odometry_budget);
   if (rings.has(stages::mapmatch))
     add_stage<MapMatchStage>(map, networks, config.mapmatch, feedback_of(config));
 }

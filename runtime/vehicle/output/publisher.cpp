@@ -93,6 +93,8 @@ void Publisher::forward(const RingSpec<T>& spec, const std::function<void(const 
     }
     if constexpr (std::is_same_v<T, FusedState>) {
       send(channels::odom_state, sample.available, to_lcm(sample.odom));
+      if (sample.protection)
+        send(channels::nav_protection, sample.available, to_lcm(*sample.protection));
     }
     observe(sample);
   });

@@ -22,6 +22,9 @@ constexpr std::size_t most_images_a_tick = 8;
 // The statistics that are judged have a memory of their own.
 constexpr Duration doubt_interval = std::chrono::seconds(1);
 
+// A sensor that has gone is not doubted for longer.
+constexpr Duration doubt_memory = std::chrono::seconds(10);
+
 constexpr const char* scattering = "they scatter more than they say of themselves";
 
 // What does not speak against the sensor: the configuration has no use for the measurement, now or
@@ -49,9 +52,11 @@ void note(UseWatch& use, const Sample& sample, const fusion::Outcome& outcome) {
 
 }  // namespace
 
-FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration odometry_budget)
+FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter,
+                         fusion::ProtectionMonitor protection, Duration odometry_budget)
     : GraphStage(stages::fusion, rings),
       filter_(std::move(filter)),
+      protection_(protection),
       states_(outputs(rings::fusion_publisher, rings::fusion_ppp)),
       states_to_match_(outputs(rings::fusion_mapmatch)),
       image_states_(outputs(rings::image_states)),
@@ -75,12 +80,7 @@ FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration od
     imu_taken_ = sample;
   });
   for (const auto* fixes : {&rings::gnss_fusion, &rings::ppp_fusion}) {
-    GraphStage::take(intake_, *fixes, [this](const GnssFix& fix) {
-      runtime::TraceSpan span(trace(), "gnss");
-      span.step_flow(flow_of(fix));
-      note(gnss_use_, fix, filter_.add(fix));
-      judge_fix(fix.available);
-    });
+    GraphStage::take(intake_, *fixes, [this](const GnssFix& fix) { take(fix); });
   }
   GraphStage::take(intake_, rings::wheel_fusion, [this](const WheelSpeed& sample) {
     const runtime::TraceSpan span(trace(), "wheel");
@@ -146,6 +146,10 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   if (!known) known = filter.state_without_course_at(k);
   FusedState state = known.value_or(FusedState{});
   stamp(state, k, k + spec().budget, ticks_++);
+  if (known && state.sequence % NavProtection::every == 0) {
+    state.protection = protection_.levels(state, filter_);
+    state.protection->doubted = doubted(k);
+  }
   const MonotonicTime computed = runtime::monotonic_now();
   send(state, stop);
   sent_states_.push_back(state);
@@ -162,6 +166,16 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   promise(k + spec().period + spec().budget - Duration(1));
   save_until(k + spec().period - Duration(1), stop);
   return true;
+}
+
+void FusionStage::take(const GnssFix& fix) {
+  runtime::TraceSpan span(trace(), "gnss");
+  span.step_flow(flow_of(fix));
+  const fusion::Outcome outcome = filter_.add(fix);
+  note(gnss_use_, fix, outcome);
+  if (!outcome.refused() || outcome.reason == fusion::Reason::position_gate)
+    protection_.note(fix, filter_.aided());
+  judge_fix(fix.available);
 }
 
 void FusionStage::take(const RelativeMotion& motion) {
@@ -184,6 +198,16 @@ const char* FusionStage::doubt_of(fusion::Witness witness, int components) const
   if (error.excess(components, p.doubt_scatter) > 1.0) return scattering;
   if (error.mean() > p.doubt_gate) return "they have contradicted the rest for seconds";
   return nullptr;
+}
+
+bool FusionStage::doubted(Time t) const {
+  using enum fusion::Witness;
+  const auto lately = [&](fusion::Witness witness, int components) {
+    const bool there = t - filter_.aided().contradictions().of(witness).stamp <= doubt_memory;
+    return there && doubt_of(witness, components) != nullptr;
+  };
+  return !others_agree_ || lately(fix_position, 2) || lately(fix_velocity, 2) ||
+         lately(wheel_speed, 1);
 }
 
 // An odometry that is wrong errs by much, so its motions scatter; where they err by a little, all
@@ -223,8 +247,8 @@ void FusionStage::save_until(Time t, const std::stop_token& stop) {
 // resumes sends it.
 template <class Archive>
 void FusionStage::archive(Archive& ar) {
-  ar.section(spec().name, 2);
-  ar(filter_, ticks_, images_, sent_states_, sent_image_states_);
+  ar.section(spec().name, 3);
+  ar(filter_, protection_, ticks_, images_, sent_states_, sent_image_states_);
 }
 
 std::vector<RefusalCount> FusionStage::refusals() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "estimators/fusion/guarded_filter.h"
+#include "estimators/fusion/protection_monitor.h"
 #include "msgs/odom_state.h"
 #include "msgs/odometry.h"
 #include "runtime/core/intake.h"
@@ -21,15 +22,16 @@ namespace maploop::vehicle {
 class FusionStage final : public GraphStage {
  public:
   // `odometry_budget`: the sum of the budgets of all stages between a camera and the odometry.
-  FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration odometry_budget);
+  FusionStage(Rings& rings, fusion::GuardedFilter filter, fusion::ProtectionMonitor protection,
+              Duration odometry_budget);
 
   // Each tick takes exactly what is available by then. While an input is late, or when the ticks
   // themselves fall behind by several periods, the data clock is stalled. On a live clock a tick
   // takes what has arrived; what is late goes to a later tick.
   void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
   std::size_t saved_bytes() const override {
-    return filter_.largest_archive(feedback_) + sent_image_states_.capacity() * sizeof(FusedState) +
-           4096;
+    return filter_.largest_archive(feedback_) + protection_.largest_archive() +
+           sent_image_states_.capacity() * sizeof(FusedState) + 4096;
   }
   std::vector<UseWatch*> uses() override {
     return {&imu_use_,   &gnss_use_,   &wheel_use_,   &odometry_use_,
@@ -62,11 +64,14 @@ class FusionStage final : public GraphStage {
 
  private:
   bool tick(const runtime::Tick& tick, runtime::DataClock& clock, const std::stop_token& stop);
+  void take(const GnssFix& fix);
   void take(const RelativeMotion& motion);
   // Look for lasting contradictions after a fix or a motion has been added.
   void judge_fix(Time available);
   void judge_motion(Time available);
   const char* doubt_of(fusion::Witness witness, int components) const;
+  // Whether any aid that was there lately contradicts the others.
+  bool doubted(Time t) const;
   void send(const FusedState& state, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
   void load(ArchiveReader& ar) override { archive(ar); }
@@ -75,6 +80,7 @@ class FusionStage final : public GraphStage {
   void record_paths(const runtime::DataClock& clock, MonotonicTime due, MonotonicTime done);
 
   fusion::GuardedFilter filter_;
+  fusion::ProtectionMonitor protection_;
   Outputs<FusedState> states_;
   Outputs<NavState> states_to_match_;
   Outputs<FusedState> image_states_;

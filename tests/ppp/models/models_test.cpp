@@ -11,7 +11,6 @@
 #include "ppp/models/geodesy.h"
 #include "ppp/models/tides.h"
 #include "ppp/models/troposphere.h"
-#include "ppp/protection.h"
 
 namespace maploop::ppp {
 namespace {
@@ -26,25 +25,6 @@ TEST(Geodesy, ThereAndBack) {
     EXPECT_NEAR(back.longitude, g.longitude, 1e-10);
     EXPECT_NEAR(back.height, g.height, 1e-3);
   }
-}
-
-TEST(Protection, FactorsAreThoseOfTheNormalDistribution) {
-  EXPECT_NEAR(integrity_factor(0.3173105), 1.0, 1e-6);
-  EXPECT_NEAR(integrity_factor(1e-4), 3.8905919, 1e-6);
-  EXPECT_NEAR(integrity_factor(1e-7), 5.3267239, 1e-6);
-}
-
-TEST(Protection, AlongAndAcrossFollowTheDirectionOfTravel) {
-  const Eigen::Matrix3d P = Eigen::Vector3d(0.04, 0.09, 0.25).asDiagonal();
-  const auto north = protection_levels(P, {0.0, 10.0, 0.0}, 2.0);
-  EXPECT_NEAR(north.along, 0.6, 1e-12);
-  EXPECT_NEAR(north.across, 0.4, 1e-12);
-  EXPECT_NEAR(north.up, 1.0, 1e-12);
-  const auto north_east = protection_levels(P, {3.0, 3.0, 0.0}, 2.0);
-  EXPECT_NEAR(north_east.along, 2.0 * std::sqrt(0.065), 1e-12);
-  const auto still = protection_levels(P, {0.1, 0.0, 0.0}, 2.0);
-  EXPECT_NEAR(still.along, 0.6, 1e-12) << "the larger one, whatever the direction";
-  EXPECT_NEAR(still.across, 0.6, 1e-12);
 }
 
 // The formula of the Astronomical Almanac is good to 0.01 degrees.

@@ -34,6 +34,7 @@ CHANNELS = {
     "MAP_DOUBT": ("map_doubt_t", "explanation"),
     "MAP_FEEDBACK": ("map_feedback_t", "cross_track"),
     "MAP_MATCH": ("map_match_t", "explanation"),
+    "NAV_PROTECTION": ("nav_protection_t", "doubted"),
     "NAV_STATE": ("nav_state_t", "origin_latitude"),
     "ODOMETRY": ("relative_motion_t", "translation"),
     "PPP_STATE": ("ppp_state_t", "latitude"),

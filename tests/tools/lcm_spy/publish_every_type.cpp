@@ -60,6 +60,7 @@ bool publish_all(lcm::LCM& lcm, int tick) {
   state.status = NavStatus::aided;
   state.forward_speed = 11.7;
   publish("NAV_STATE", state);
+  publish("NAV_PROTECTION", sample<NavProtection>(tick));
   publish("VO", sample<RelativeMotion>(tick));
   publish("LIDAR_ODOMETRY", sample<LidarMotion>(tick));
   publish("ODOMETRY", sample<RelativeMotion>(tick));

@@ -1,6 +1,7 @@
 // Tests the score of a fused state against a reference whose accuracy changes.
 #include "tools/replay/fusion_score.h"
 #include "tools/replay/outage_score.h"
+#include "tools/replay/protection_score.h"
 
 #include <gtest/gtest.h>
 
@@ -41,6 +42,36 @@ NavTrack track() {
     track.add(s);
   }
   return track;
+}
+
+// The track stands still in its velocities, so that along is east.
+TEST(ProtectionScore, CountsErrorsBeyondTheLevelsThatHold) {
+  std::vector<NavProtection> levels;
+  for (int i = 0; i <= 2000; i += 10) {
+    NavProtection p;
+    p.stamp = start + milliseconds(10 * i);
+    p.risk = 1e-4;
+    p.along = p.across = 4.0;
+    p.horizontal = i < 1000 ? 12.0 : 4.5;
+    p.doubted = i < 500;
+    levels.push_back(p);
+  }
+  const auto scored = score(levels, track(), reference(0.1), Time::min());
+  ASSERT_TRUE(scored);
+  EXPECT_EQ(scored->risk, 1e-4);
+  EXPECT_EQ(scored->moments, 201u);
+  EXPECT_EQ(scored->doubted, 50u);
+  EXPECT_EQ(scored->along.beyond, 50u) << "5 m, from 5 to 10 s";
+  EXPECT_EQ(scored->across.beyond, 0u);
+  EXPECT_EQ(scored->horizontal.beyond, 0u);
+  EXPECT_NEAR(scored->largest_ratio, 5.0 / 12.0, 1e-3);
+  EXPECT_NEAR(scored->horizontal.median, 4.5, 1e-9);
+  EXPECT_NEAR(scored->below_5, 101.0 / 201.0, 1e-9);
+  EXPECT_NEAR(scored->below_10, scored->below_5, 1e-9);
+  EXPECT_EQ(score(levels, track(), reference(0.5), Time::min())->moments, 101u)
+      << "only where the reference is good enough";
+  EXPECT_FALSE(score(levels, track(), {}, Time::min()));
+  EXPECT_FALSE(score({}, track(), reference(0.1), Time::min()));
 }
 
 // The fixes are on the reference's path, twice a second.

@@ -63,6 +63,8 @@ TEST_F(WholeDrive, StaysAsAccurateAsItWas) {
   EXPECT_LT(r["odom"]["end_point_m"], 1.75);
   // The position in the frame of the map is that of fixes with an error of 1.8 m: 2.31 m.
   EXPECT_LT(r["navigation"]["rmse_m"], 2.5);
+  EXPECT_EQ(r["protection"]["horizontal"]["beyond"], 0);
+  EXPECT_GT(r["protection"]["below_10_m"], 0.5);
   // One trigger exposes both images, so that no odometry speed contradicts the filter.
   EXPECT_FALSE(r["refusals"]["fusion"].contains("speed contradicts the prediction"));
   EXPECT_EQ(evaluation::read_kitti_poses(lockstep().in("poses.txt")).size(), 144u);

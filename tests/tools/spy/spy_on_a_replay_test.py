@@ -60,16 +60,16 @@ def for_scripts():
     rows = {line.split()[0]: dict(zip(columns, line.split()))
             for line in lines[1:] if not line.startswith("#")}
     steady = {"DEADLINES", "GNSS_FIX", "HEALTH", "IMU", "LIDAR_ODOMETRY", "NAV_STATE",
-              "ODOMETRY", "ODOM_STATE", "SELF_CALIBRATION", "TRUTH", "VO"}
+              "NAV_PROTECTION", "ODOMETRY", "ODOM_STATE", "SELF_CALIBRATION", "TRUTH", "VO"}
     now_and_then = {"CALIBRATION", "PREVIEW", "REPLAY_CONTROL", "RUN"}
     check("the channels", steady <= set(rows) <= steady | now_and_then, table)
     types = {"NAV_STATE": "nav_state_t", "VO": "relative_motion_t", "IMU": "imu_t",
              "GNSS_FIX": "gnss_fix_t", "TRUTH": "reference_pose_t", "HEALTH": "health_t",
              "DEADLINES": "deadlines_t", "LIDAR_ODOMETRY": "lidar_motion_t",
              "ODOMETRY": "relative_motion_t", "ODOM_STATE": "odom_state_t",
-             "SELF_CALIBRATION": "self_calibration_t"}
-    rates = {"NAV_STATE": 100, "ODOM_STATE": 100, "VO": 10, "IMU": 10, "TRUTH": 10, "GNSS_FIX": 1, "HEALTH": 1,
-             "DEADLINES": 1, "LIDAR_ODOMETRY": 10, "ODOMETRY": 10, "SELF_CALIBRATION": 1}
+             "NAV_PROTECTION": "nav_protection_t", "SELF_CALIBRATION": "self_calibration_t"}
+    rates = {"NAV_STATE": 100, "ODOM_STATE": 100, "NAV_PROTECTION": 10, "VO": 10, "IMU": 10, "TRUTH": 10,
+             "GNSS_FIX": 1, "HEALTH": 1, "DEADLINES": 1, "LIDAR_ODOMETRY": 10, "ODOMETRY": 10, "SELF_CALIBRATION": 1}
     # A busy machine stalls the data clock, and the table says for how long: the figures are judged by what is left.
     stall = re.search(r"stalled \d+ times?, ([0-9.]+) s in all", table)
     stalled = float(stall.group(1)) if stall else 0.0

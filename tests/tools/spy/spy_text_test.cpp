@@ -130,17 +130,24 @@ TEST(SpyText, RingsDeadlinesAndDegradedModesInALineEach) {
   ppp.protection = {0.1, 0.2, 0.3};
   ppp.integrity_risk = 1e-4;
   traffic.add("PPP_STATE", encoded(to_lcm(ppp)), seconds(1));
+  NavProtection levels;
+  levels.risk = 1e-4;
+  levels.along = 4.0;
+  levels.across = 3.0;
+  levels.horizontal = 5.25;
+  traffic.add("NAV_PROTECTION", encoded(to_lcm(levels)), seconds(1));
   const auto lines = vehicle_lines(traffic);
-  ASSERT_EQ(lines.size(), 4u);
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[3], "position: within 5.25 m, 4.00 along, 3.00 across but for a risk of 0.0001");
   EXPECT_EQ(
-      lines[3],
+      lines[4],
       "ppp: converged, 1 of 2 satellites, within 0.10 m along, 0.20 across, 0.30 up but for a "
       "risk of 0.0001");
   EXPECT_EQ(lines[0], "rings: 2, lost 1, fullest camera -> stereo 3 of 4");
   EXPECT_EQ(lines[1], "degraded: 1: the clock was stalled");
   EXPECT_EQ(lines[2], "deadlines: fusion missed 2 of 100 (worst 0.0 of 0 ms: woken late)");
   traffic.add("HEALTH", imu(0, {}), seconds(1));
-  EXPECT_EQ(vehicle_lines(traffic).size(), 2u) << "another type on its channel";
+  EXPECT_EQ(vehicle_lines(traffic).size(), 3u) << "another type on its channel";
 }
 
 }  // namespace

@@ -74,8 +74,9 @@ TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
   Rings rings(rings::all, {"imu", "gnss", "odometry", "fusion", "publisher"}, {});
   runtime::Edge<FusedState>& nav_states = *rings.consumer(rings::fusion_publisher);
   runtime::Edge<FusedState>& image_states = *rings.consumer(rings::image_states);
-  FusionStage stage(rings, fusion::ReducedImuFilter(fusion::FusionParameters{}),
-                    stages::stereo.budget);
+  FusionStage stage(rings,
+                    fusion::GuardedFilter(fusion::ReducedImuFilter(fusion::FusionParameters{})),
+                    fusion::ProtectionMonitor(), stages::stereo.budget);
   runtime::Tracer tracer({});
   runtime::TraceBuffer& trace = tracer.thread("fusion");
   stage.trace_to(&trace);

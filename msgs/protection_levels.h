@@ -3,9 +3,14 @@
 
 #include <Eigen/Core>
 
-#include "msgs/ppp_state.h"
+namespace maploop {
 
-namespace maploop::ppp {
+// An error along, across or up lies beyond its level with a stated probability.
+struct ProtectionLevels {
+  double along = 0.0, across = 0.0, up = 0.0;  // m
+
+  void archive(auto& ar) { ar(along, across, up); }
+};
 
 // Returns the factor k for which a normally distributed error exceeds k standard deviations, on
 // either side, with this probability. `risk` is in (0, 1).
@@ -21,8 +26,9 @@ ProtectionLevels protection_levels(const Eigen::Matrix3d& covariance_enu,
 // stands, it has no direction: they are east and north, and `known` is false.
 struct TravelAxes {
   Eigen::Vector2d along, across;  // east, north
-  bool known;
+  bool known;                     // whether the vehicle moves
 };
+// Returns the axes of a velocity (m/s).
 TravelAxes travel_axes(const Eigen::Vector3d& velocity_enu);
 
-}  // namespace maploop::ppp
+}  // namespace maploop

@@ -1,10 +1,10 @@
-#include "ppp/protection.h"
+#include "msgs/protection_levels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace maploop::ppp {
+namespace maploop {
 namespace {
 
 double deviation(const Eigen::Matrix2d& P, const Eigen::Vector2d& direction) {
@@ -48,4 +48,4 @@ ProtectionLevels protection_levels(const Eigen::Matrix3d& covariance_enu,
   return {factor * deviation(plane, axes.along), factor * deviation(plane, axes.across), up};
 }
 
-}  // namespace maploop::ppp
+}  // namespace maploop

@@ -1,0 +1,40 @@
+// How often the fused position is beyond its protection levels, and how large these are.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "msgs/nav_protection.h"
+#include "msgs/reference.h"
+#include "tools/replay/fusion_score.h"
+
+namespace maploop::fusion_score {
+
+struct ProtectionScore {
+  // Of one level, where no aid is doubted: how many errors are beyond it, and its median.
+  struct Level {
+    std::size_t beyond = 0;
+    double median = 0.0;  // m
+  };
+
+  double risk = 0.0;        // that the levels are made for
+  std::size_t moments = 0;  // ten a second, where the reference is good enough
+  std::size_t doubted = 0;  // of these, in which an aid was doubted: the levels do not hold
+  Level along, across, horizontal;
+  double largest_ratio = 0.0;  // 1, of a horizontal error to its level, the same
+  double below_5 = 0.0,
+         below_10 = 0.0;  // 1, share of moments with a horizontal level below 5, 10 m that holds
+};
+
+// Returns nothing if there are no levels, or no reference for any. Moments before `from` are not
+// scored.
+std::optional<ProtectionScore> score(const std::vector<NavProtection>& levels,
+                                     const NavTrack& track,
+                                     const std::vector<ReferencePose>& reference, Time from);
+
+// Some lines for a terminal.
+std::string to_text(const ProtectionScore& score);
+
+}  // namespace maploop::fusion_score
