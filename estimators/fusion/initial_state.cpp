@@ -35,11 +35,11 @@ double velocity_sigma(const GnssFix& fix) {
 }
 
 // Corrects a velocity by what is known of roads: they climb by zero, give or take their slope. The
-// rest of the velocity is corrected by its correlation with the error of the climb: (39) of
-// METHOD.md.
+// rest of the velocity is corrected by its correlation with the error of the climb.
 void keep_to_the_road(Eigen::Vector3d& velocity, Eigen::Matrix3d& covariance,
                       const FusionParameters& p) {
   const double climb = p.road_slope_sigma * velocity.head<2>().norm();
+  // (39) of METHOD.md
   const Eigen::Vector3d gain = covariance.col(2) / (covariance(2, 2) + climb * climb);
   velocity -= gain * velocity.z();
   covariance -= (gain * covariance.row(2)).eval();
