@@ -109,7 +109,8 @@ TEST(Verdict, ARunWithoutAPositionIsEmptyAndSaysWhy) {
   EXPECT_THAT(why_empty(r).value_or(""), HasSubstr("the recording has no GNSS to start from"));
   r.has_gnss = true;
   r.vehicle.health.refusals = {{"fusion", std::string(to_string(fusion::Reason::no_course)), 30}};
-  EXPECT_THAT(why_empty(r).value_or(""), HasSubstr("most often: too slow or too uncertain for a course"));
+  EXPECT_THAT(why_empty(r).value_or(""),
+              HasSubstr("most often: too slow or too uncertain for a course"));
   r.vehicle.sensors.back() = sensor("gnss", 0);
   EXPECT_THAT(why_empty(r).value_or(""), HasSubstr("no GNSS came to start from"));
   r.interrupted = true;
