@@ -80,6 +80,7 @@ NavProtection ProtectionMonitor::levels(const FusedState& state, const GuardedFi
   follow(state);
   NavProtection result;
   static_cast<Sample&>(result) = state;
+  result.sequence = state.sequence / NavProtection::every;
   result.risk = parameters_.integrity_risk;
   const Eigen::Matrix2d P = with_model(state.covariance.topLeftCorner<2, 2>(), way_ - way_at_fix_);
   const std::array alternatives{without_map(state, filter), without_gnss(state),

@@ -99,7 +99,7 @@ TEST(LcmTraffic, EveryChannelArrivesAndDecodes) {
   ASSERT_EQ(result.status, 0) << result.error;
 
   const auto sent = nlohmann::json::parse(std::ifstream(file))["channels"];
-  EXPECT_EQ(sent.size(), 12u);
+  EXPECT_EQ(sent.size(), 13u);
   for (const auto& [channel, summary] : sent.items()) {
     const int count = summary["count"];
     EXPECT_LE(listener.counts[channel], count) << channel;

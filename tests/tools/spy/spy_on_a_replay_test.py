@@ -91,7 +91,7 @@ def for_scripts():
         check(f"the line '{said}'", said in table, table)
 
     rows = [json.loads(line) for line in
-            output("spy", "--json", "--once", "--seconds", "2", "--filter", "^NAV").splitlines()]
+            output("spy", "--json", "--once", "--seconds", "2", "--filter", "^NAV_STATE").splitlines()]
     check("JSON of one channel", [row["channel"] for row in rows] == ["NAV_STATE"], rows)
     check("JSON has numbers", rows[0]["rate_hz"] > 50 * pace and rows[0]["bad"] == 0, rows)
 
