@@ -158,7 +158,7 @@ def at_a_terminal():
     spy.until("the channels come", lambda p: all(c in p for c in ("NAV_STATE", "VO", "HEALTH")))
     check("single keys, unechoed", not termios.tcgetattr(spy.slave)[3] & (termios.ICANON | termios.ECHO))
     check("a channel is selected", spy.selected() != "", spy.picture())
-    spy.press("/NAV\r")
+    spy.press("/NAV_STATE\r")
     spy.until("a filter leaves one", lambda p: "NAV_STATE" in p and "GNSS_FIX" not in p)
     spy.until("its fields are shown", lambda p: "header.stamp_ns = 131704" in p
               and "covariance[9][9] = " in p)
