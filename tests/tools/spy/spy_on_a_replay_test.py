@@ -165,7 +165,7 @@ def at_a_terminal():
     first = re.search(r"header.sequence = (\d+)", spy.picture()).group(1)
     spy.until("they are live", lambda p: f"header.sequence = {first}\x1b" not in p
               and "header.sequence" in p)
-    spy.press("/" + "\x7f" * 3 + "\r")
+    spy.press("/" + "\x7f" * len("NAV_STATE") + "\r")
     spy.until("all come back", lambda p: "GNSS_FIX" in p)
     was = spy.selected()
     spy.press("\x1b[B")
