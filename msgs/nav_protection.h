@@ -17,7 +17,7 @@ struct Separation {
 };
 
 // These are the protection levels of the NavState of the same stamp, along and across its direction
-// of travel (of the largest axis for a vehicle that stands).
+// of travel; for a vehicle that stands, both are the larger one of east and north.
 struct NavProtection : Sample {
   static constexpr std::uint64_t every = 10;  // of so many states, one has levels
 

@@ -91,8 +91,8 @@ Outcome correct_pose(FilterState& state, Innovation<6> rows, const FusionParamet
     return refused(Reason::rotation_gate);
   }
   if (!turning) rows.leave_out(5, 1);
-  joseph_update(state.x, state.P, rows);
-  return {};
+  const bool done = joseph_update(state.x, state.P, rows, {}, p.max_tilt);
+  return done ? Outcome{} : refused(Reason::implausible_tilt);
 }
 
 // Applies all corrections or leaves the state unchanged.
@@ -106,9 +106,6 @@ Outcome correct(FilterState& state, const RelativeMotion& motion, const Innovati
     chain(state, motion);
     outcome = apply_gated(state, chained_azimuth_innovation(state, p), p.speed_gate,
                           Reason::rotation_gate, p.max_tilt);
-  }
-  if (!outcome.refused() && lean(state.x) > std::max(p.max_tilt, lean(x))) {
-    outcome = refused(Reason::implausible_tilt);
   }
   if (outcome.refused()) {
     state.x = x;

@@ -7,6 +7,7 @@
 
 #include "estimators/fusion/parameter_table.h"
 #include "msgs/archive.h"
+#include "msgs/median.h"
 #include "msgs/parameter_archive.h"
 #include "msgs/protection_levels.h"
 
@@ -48,10 +49,14 @@ Eigen::Vector2d turn(const Eigen::Vector2d& v, double azimuth) {
   return std::cos(azimuth) * v + std::sin(azimuth) * turned(v);
 }
 
-double median(std::span<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+// Appends an element; an array that is full loses its first.
+template <class T, std::size_t n>
+T& append(std::array<T, n>& all, std::size_t& count) {
+  if (count == n) {
+    std::move(all.begin() + 1, all.end(), all.begin());
+    --count;
+  }
+  return all[count++];
 }
 
 }  // namespace
@@ -68,12 +73,8 @@ void ProtectionMonitor::note(const GnssFix& fix, const ReducedImuFilter& filter)
   const Eigen::Vector3d lever(p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up);
   const Eigen::Vector3d body =
       filter.frame().to_enu(fix.position) - rotation_enu_body(state->attitude) * lever;
-  if (fix_count_ == most_fixes) {
-    std::move(fixes_.begin() + 1, fixes_.end(), fixes_.begin());
-    --fix_count_;
-  }
-  fixes_[fix_count_++] = {fix.stamp, (body - state->position_enu).head<2>(),
-                          fix.position_covariance.topLeftCorner<2, 2>()};
+  append(fixes_, fix_count_) = {fix.stamp, (body - state->position_enu).head<2>(),
+                                fix.position_covariance.topLeftCorner<2, 2>()};
 }
 
 NavProtection ProtectionMonitor::levels(const FusedState& state, const GuardedFilter& filter) {
@@ -82,34 +83,44 @@ NavProtection ProtectionMonitor::levels(const FusedState& state, const GuardedFi
   static_cast<Sample&>(result) = state;
   result.sequence = state.sequence / NavProtection::every;
   result.risk = parameters_.integrity_risk;
-  const Eigen::Matrix2d P = with_model(state.covariance.topLeftCorner<2, 2>(), way_ - way_at_fix_);
-  const std::array alternatives{without_map(state, filter), without_gnss(state),
-                                without_odometry(state)};
-  const std::array separations{&result.without_map, &result.without_gnss, &result.without_odometry};
+  const TravelAxes axes = travel_axes(state.velocity_enu);
+  const auto separation = [&](const std::optional<Alternative>& a) -> Separation {
+    if (!a) return {};
+    const auto sigma = [&](const Eigen::Vector2d& axis) {
+      return std::sqrt(axis.dot(a->covariance * axis));
+    };
+    return {true, std::abs(axes.along.dot(a->apart)), std::abs(axes.across.dot(a->apart)),
+            sigma(axes.along), sigma(axes.across)};
+  };
+  const Separation fused = separation(
+      Alternative{Eigen::Vector2d::Zero(),
+                  with_model(state.covariance.topLeftCorner<2, 2>(), way_ - way_at_fix_)});
+  result.without_map = separation(without_map(state, filter));
+  result.without_gnss = separation(without_gnss(state));
+  result.without_odometry = separation(without_odometry(state));
 
-  const auto level_along = [&](const Eigen::Vector2d& axis, double risk) {
-    std::array<Hypothesis, 4> hypotheses{{{1.0, 0.0, std::sqrt(axis.dot(P * axis))}}};
-    std::size_t count = 1;
-    for (const Alternative& a : alternatives) {
-      if (!a.known) continue;
-      hypotheses[count++] = {a.fault, std::abs(axis.dot(a.apart)),
-                             std::sqrt(axis.dot(a.covariance * axis))};
-    }
+  const auto level = [&](double Separation::*apart, double Separation::*sigma, double risk) {
+    std::array<Hypothesis, 4> hypotheses{};
+    std::size_t count = 0;
+    const auto add = [&](const Separation& s, double fault) {
+      if (s.known) hypotheses[count++] = {fault, s.*apart, s.*sigma};
+    };
+    add(fused, 1.0);
+    add(result.without_map, parameters_.map_fault);
+    add(result.without_gnss, parameters_.gnss_fault);
+    add(result.without_odometry, parameters_.odometry_fault);
     return level_of(std::span(hypotheses).first(count), risk);
   };
-  const TravelAxes axes = travel_axes(state.velocity_enu);
-  result.along = level_along(axes.along, result.risk);
-  result.across = level_along(axes.across, result.risk);
+  const auto along = [&](double risk) {
+    return level(&Separation::along, &Separation::along_sigma, risk);
+  };
+  const auto across = [&](double risk) {
+    return level(&Separation::across, &Separation::across_sigma, risk);
+  };
+  result.along = along(result.risk);
+  result.across = across(result.risk);
   if (!axes.known) result.along = result.across = std::max(result.along, result.across);
-  result.horizontal = std::hypot(level_along(axes.along, 0.5 * result.risk),
-                                 level_along(axes.across, 0.5 * result.risk));
-  for (std::size_t i = 0; i < alternatives.size(); ++i) {
-    const Alternative& a = alternatives[i];
-    if (!a.known) continue;
-    *separations[i] = {true, std::abs(axes.along.dot(a.apart)), std::abs(axes.across.dot(a.apart)),
-                       std::sqrt(axes.along.dot(a.covariance * axes.along)),
-                       std::sqrt(axes.across.dot(a.covariance * axes.across))};
-  }
+  result.horizontal = std::hypot(along(0.5 * result.risk), across(0.5 * result.risk));
   return result;
 }
 
@@ -133,11 +144,7 @@ void ProtectionMonitor::follow(const FusedState& state) {
   if (state.odom.status == NavStatus::uninitialized) return;
   const Duration interval = from_seconds(parameters_.window / (most_pasts - 1));
   if (past_count_ > 0 && state.stamp - pasts_[past_count_ - 1].stamp < interval) return;
-  if (past_count_ == most_pasts) {
-    std::move(pasts_.begin() + 1, pasts_.end(), pasts_.begin());
-    --past_count_;
-  }
-  Past& past = pasts_[past_count_++];
+  Past& past = append(pasts_, past_count_);
   past = {state.stamp,
           state.position_enu.head<2>(),
           state.odom.position.head<2>(),
@@ -158,27 +165,29 @@ Eigen::Matrix2d ProtectionMonitor::with_model(const Eigen::Matrix2d& covariance,
   return parameters_.overconfidence * covariance + model * Eigen::Matrix2d::Identity();
 }
 
-ProtectionMonitor::Alternative ProtectionMonitor::without_map(const FusedState& state,
-                                                              const GuardedFilter& filter) const {
+std::optional<ProtectionMonitor::Alternative> ProtectionMonitor::without_map(
+    const FusedState& state, const GuardedFilter& filter) const {
   const auto free = filter.without_map_at(state.stamp);
-  if (!free) return {};
-  return {true, parameters_.map_fault, (free->position_enu - state.position_enu).head<2>(),
-          with_model(free->covariance.topLeftCorner<2, 2>(), way_ - way_at_fix_)};
+  if (!free) return std::nullopt;
+  return Alternative{(free->position_enu - state.position_enu).head<2>(),
+                     with_model(free->covariance.topLeftCorner<2, 2>(), way_ - way_at_fix_)};
 }
 
 // (42) of METHOD.md
-ProtectionMonitor::Alternative ProtectionMonitor::without_gnss(const FusedState& state) const {
-  if (past_count_ < 2 || state.gnss_stamp <= pasts_[0].stamp) return {};
+std::optional<ProtectionMonitor::Alternative> ProtectionMonitor::without_gnss(
+    const FusedState& state) const {
+  if (past_count_ < 2 || state.gnss_stamp <= pasts_[0].stamp) return std::nullopt;
   const Past& past = pasts_[0];
   const Eigen::Vector2d moved =
       turn(state.odom.position.head<2>() - past.odom, past.azimuth - past.odom_azimuth);
   Eigen::Matrix<double, 2, 3> J;
   J << Eigen::Matrix2d::Identity(), turned(moved);
-  return {true, parameters_.gnss_fault, past.position + moved - state.position_enu.head<2>(),
-          with_model(J * past.covariance * J.transpose(), way_ - past.way)};
+  return Alternative{past.position + moved - state.position_enu.head<2>(),
+                     with_model(J * past.covariance * J.transpose(), way_ - past.way)};
 }
 
-ProtectionMonitor::Alternative ProtectionMonitor::without_odometry(const FusedState& state) const {
+std::optional<ProtectionMonitor::Alternative> ProtectionMonitor::without_odometry(
+    const FusedState& state) const {
   std::array<double, most_fixes> east{}, north{};
   std::size_t count = 0;
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
@@ -189,11 +198,9 @@ ProtectionMonitor::Alternative ProtectionMonitor::without_odometry(const FusedSt
     north[count++] = fix.apart.y();
     sum += fix.covariance;
   }
-  if (count == 0) return {};
-  return {true,
-          parameters_.odometry_fault,
-          {median(std::span(east).first(count)), median(std::span(north).first(count))},
-          with_model(sum / static_cast<double>(count), 0.0)};
+  if (count == 0) return std::nullopt;
+  return Alternative{{median(std::span(east).first(count)), median(std::span(north).first(count))},
+                     with_model(sum / static_cast<double>(count), 0.0)};
 }
 
 template <class Archive, class Monitor>

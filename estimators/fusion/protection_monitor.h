@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "estimators/fusion/guarded_filter.h"
 #include "estimators/fusion/protection_parameters.h"
@@ -57,19 +59,18 @@ class ProtectionMonitor {
   };
   // A position without an aid, from the fused one, and the covariance of its error.
   struct Alternative {
-    bool known = false;
-    double fault = 0.0;  // probability that the aid is wrong
-    Eigen::Vector2d apart = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+    Eigen::Vector2d apart;
+    Eigen::Matrix2d covariance;
   };
 
   template <class Archive, class Monitor>
   static void describe(Archive& ar, Monitor& monitor);
   void follow(const FusedState& state);
   Eigen::Matrix2d with_model(const Eigen::Matrix2d& covariance, double way) const;
-  Alternative without_map(const FusedState& state, const GuardedFilter& filter) const;
-  Alternative without_gnss(const FusedState& state) const;
-  Alternative without_odometry(const FusedState& state) const;
+  std::optional<Alternative> without_map(const FusedState& state,
+                                         const GuardedFilter& filter) const;
+  std::optional<Alternative> without_gnss(const FusedState& state) const;
+  std::optional<Alternative> without_odometry(const FusedState& state) const;
 
   ProtectionParameters parameters_;
   static constexpr std::size_t most_pasts = 31, most_fixes = 16;

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <vector>
 
+#include "msgs/median.h"
+
 namespace maploop::stereo {
 namespace {
 
-double median(std::vector<double>* values) {
-  if (values->empty()) return 0.0;
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
+double median_or_zero(std::vector<double>& values) {
+  return values.empty() ? 0.0 : median(values);
 }
 
 }  // namespace
@@ -31,7 +30,7 @@ ImageMotion image_motion(const StereoCalibration& camera, std::span<const Stereo
     parallax.push_back(std::hypot(to.u_left - camera.cx - camera.fx * ray.x() / ray.z(),
                                   to.v_left - camera.cy - camera.fy * ray.y() / ray.z()));
   }
-  return {median(&flow), median(&parallax)};
+  return {median_or_zero(flow), median_or_zero(parallax)};
 }
 
 }  // namespace maploop::stereo

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "msgs/median.h"
+
 namespace maploop::stereo {
 
 std::size_t WindowPoint::first_seen(std::size_t poses) const {
@@ -84,10 +86,7 @@ double Window::flow_of_newest() const {
     if (point.sights[last].seen && point.sights[last - 1].seen)
       flows_.push_back((point.sights[last].image - point.sights[last - 1].image).head<2>().norm());
   }
-  if (flows_.empty()) return min_flow_;
-  const auto middle = flows_.begin() + static_cast<std::ptrdiff_t>(flows_.size() / 2);
-  std::nth_element(flows_.begin(), middle, flows_.end());
-  return *middle;
+  return flows_.empty() ? min_flow_ : median(flows_);
 }
 
 }  // namespace maploop::stereo

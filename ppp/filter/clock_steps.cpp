@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ppp/filter/median.h"
+#include "msgs/median.h"
 
 namespace maploop::ppp {
 namespace {

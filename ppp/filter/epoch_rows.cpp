@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ppp/filter/median.h"
+#include "msgs/median.h"
 #include "ppp/filter/row_update.h"
 
 namespace maploop::ppp {

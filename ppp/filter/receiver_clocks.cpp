@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "ppp/filter/median.h"
+#include "msgs/median.h"
 
 namespace maploop::ppp {
 namespace {

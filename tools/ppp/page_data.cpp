@@ -8,7 +8,7 @@
 #include <map>
 
 #include "msgs/frames.h"
-#include "ppp/filter/median.h"
+#include "msgs/median.h"
 #include "ppp/models/geodesy.h"
 #include "tools/web/page.h"
 

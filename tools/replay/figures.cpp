@@ -8,6 +8,7 @@ namespace {
 using evaluation::Score;
 using fusion_score::Errors;
 using fusion_score::OutageEnd;
+using fusion_score::ProtectionScore;
 using nlohmann::json;
 
 double percent(const Score& s) {
@@ -67,6 +68,21 @@ const web::Columns<OutageEnd> outage_end_columns{
     {"error_percent", "", 0, 0, &OutageEnd::percent},
     {"sigma_m", "", 0, 0, &OutageEnd::sigma},
     {"reference_error_m", "", 0, 0, [](const auto& o) { return o.peer ? json(*o.peer) : json(); }},
+};
+
+const web::Columns<ProtectionScore> protection_columns{
+    {"risk", "", 0, 0, &ProtectionScore::risk},
+    {"moments", "", 0, 0, &ProtectionScore::moments},
+    {"doubted", "", 0, 0, &ProtectionScore::doubted},
+    {"along/beyond", "", 0, 0, [](const auto& s) { return s.along.beyond; }},
+    {"along/median_m", "", 0, 0, [](const auto& s) { return s.along.median; }},
+    {"across/beyond", "", 0, 0, [](const auto& s) { return s.across.beyond; }},
+    {"across/median_m", "", 0, 0, [](const auto& s) { return s.across.median; }},
+    {"horizontal/beyond", "", 0, 0, [](const auto& s) { return s.horizontal.beyond; }},
+    {"horizontal/median_m", "", 0, 0, [](const auto& s) { return s.horizontal.median; }},
+    {"largest_ratio", "", 0, 0, &ProtectionScore::largest_ratio},
+    {"below_5_m", "", 0, 0, &ProtectionScore::below_5},
+    {"below_10_m", "", 0, 0, &ProtectionScore::below_10},
 };
 
 const web::Columns<vehicle::SensorReport> sensor_columns{

@@ -10,6 +10,7 @@ namespace maploop::tools {
 extern const web::Columns<Accuracy> accuracy_columns;
 extern const web::Columns<fusion_score::Errors> error_columns;
 extern const web::Columns<fusion_score::OutageEnd> outage_end_columns;
+extern const web::Columns<fusion_score::ProtectionScore> protection_columns;
 extern const web::Columns<vehicle::SensorReport> sensor_columns;
 extern const web::Columns<vehicle::FaultCount> fault_columns;
 extern const web::Columns<RefusalCount> refusal_columns;

@@ -93,33 +93,41 @@ bool NavTrack::add(const NavState& state) {
   return true;
 }
 
+std::vector<ScoredState> scored_states(const NavTrack& track,
+                                       const std::vector<ReferencePose>& reference) {
+  std::vector<ScoredState> states;
+  if (reference.size() < 2 || track.states().empty()) return states;
+  const sensors::ReferenceTrajectory truth(reference, LocalFrame(track.states().front().origin));
+  for (const NavState& state : track.states()) {
+    if (const auto pose = truth.pose(state.stamp))
+      states.push_back({&state, *pose, truth.accuracy(state.stamp)});
+  }
+  const auto bad = [](const ScoredState& s) { return s.accuracy > worst_reference; };
+  if (std::count_if(states.begin(), states.end(), std::not_fn(bad)) > 1) {
+    std::erase_if(states, bad);
+  }
+  return states;
+}
+
 std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
                            const std::vector<vehicle::GnssOutage>& outages, Time origin, Time named,
                            Time from) {
-  if (reference.size() < 2 || track.states().empty()) return std::nullopt;
-  const sensors::ReferenceTrajectory truth(reference, LocalFrame(track.states().front().origin));
-
   std::vector<Sample> samples;
-  for (const NavState& state : track.states()) {
-    const auto pose = truth.pose(state.stamp);
-    if (!pose) continue;
+  for (const ScoredState& scored : scored_states(track, reference)) {
+    const NavState& state = *scored.state;
     Sample s;
     s.stamp = state.stamp;
-    s.truth = pose->translation().head<2>();
+    s.truth = scored.truth.translation().head<2>();
     s.position = state.position_enu.head<2>() - s.truth;
     s.has_course = state.status != NavStatus::without_course;
-    s.azimuth =
-        wrap_angle(state.attitude.azimuth - attitude_from_rotation(pose->rotation()).azimuth);
+    s.azimuth = wrap_angle(state.attitude.azimuth -
+                           attitude_from_rotation(scored.truth.rotation()).azimuth);
     s.azimuth_sigma = std::sqrt(state.covariance(6, 6));
-    s.accuracy = truth.accuracy(state.stamp);
+    s.accuracy = scored.accuracy;
     const Eigen::Matrix2d C = state.covariance.topLeftCorner<2, 2>() +
                               s.accuracy * s.accuracy * Eigen::Matrix2d::Identity();
     s.nees = s.position.dot(C.inverse() * s.position);
     samples.push_back(s);
-  }
-  const auto bad = [](const Sample& s) { return s.accuracy > worst_reference; };
-  if (std::count_if(samples.begin(), samples.end(), std::not_fn(bad)) > 1) {
-    std::erase_if(samples, bad);
   }
   if (samples.size() < 2) return std::nullopt;
 

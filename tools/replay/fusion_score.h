@@ -1,6 +1,7 @@
 // How far the fused state is from the reference, and what it said of that itself.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,13 @@ class NavTrack {
 
  private:
   std::vector<NavState> states_;
+};
+
+// A state and where the vehicle truly was.
+struct ScoredState {
+  const NavState* state;
+  Eigen::Isometry3d truth;  // T_enu_body
+  double accuracy;          // m, of the reference
 };
 
 // Horizontal, over one stretch. The normalized error squared (NEES) is of the horizontal position,
@@ -66,9 +74,13 @@ struct Score {
   double odom_percent = 0.0;
 };
 
-// Nothing where the track or the reference is too short. A reference that is nowhere better than
-// worst_reference is taken as it is. `named` is when HEALTH first said that something was wrong.
-// `whole` and `unsaid` are of the time from `from` on.
+// Returns the states for which there is a reference that is good enough. A reference that is
+// nowhere better than worst_reference is taken as it is. They refer to the track.
+std::vector<ScoredState> scored_states(const NavTrack& track,
+                                       const std::vector<ReferencePose>& reference);
+
+// Nothing where the track or the reference is too short. `named` is when HEALTH first said that
+// something was wrong. `whole` and `unsaid` are of the time from `from` on.
 std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
                            const std::vector<vehicle::GnssOutage>& outages, Time origin,
                            Time named = Time::max(), Time from = Time::min());

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "msgs/local_frame.h"
 #include "msgs/protection_levels.h"
-#include "sensors/replay/reference_trajectory.h"
 #include "tools/command/median.h"
 
 namespace maploop::fusion_score {
@@ -41,27 +39,21 @@ class LevelCounter {
 std::optional<ProtectionScore> score(const std::vector<NavProtection>& levels,
                                      const NavTrack& track,
                                      const std::vector<ReferencePose>& reference, Time from) {
-  if (reference.size() < 2 || levels.empty() || track.states().empty()) return std::nullopt;
-  const sensors::ReferenceTrajectory truth(reference, LocalFrame(track.states().front().origin));
-  std::map<Time, const NavState*> states;
-  bool good = false;  // whether the reference is good enough anywhere
-  for (const NavState& state : track.states()) {
-    states[state.stamp] = &state;
-    good = good || (truth.pose(state.stamp) && truth.accuracy(state.stamp) <= worst_reference);
-  }
+  std::map<Time, const NavProtection*> at;
+  for (const NavProtection& p : levels) at[p.stamp] = &p;
   LevelCounter along, across, horizontal;
   std::size_t doubted = 0;
-  for (const NavProtection& p : levels) {
-    const auto state = states.find(p.stamp);
-    const auto pose = truth.pose(p.stamp);
-    if (p.stamp < from || state == states.end() || !pose) continue;
-    if (good && truth.accuracy(p.stamp) > worst_reference) continue;
+  for (const ScoredState& scored : scored_states(track, reference)) {
+    const NavState& state = *scored.state;
+    const auto found = at.find(state.stamp);
+    if (state.stamp < from || found == at.end()) continue;
+    const NavProtection& p = *found->second;
     if (p.doubted) {
       ++doubted;
       continue;
     }
-    const Eigen::Vector2d error = (state->second->position_enu - pose->translation()).head<2>();
-    const TravelAxes axes = travel_axes(state->second->velocity_enu);
+    const Eigen::Vector2d error = (state.position_enu - scored.truth.translation()).head<2>();
+    const TravelAxes axes = travel_axes(state.velocity_enu);
     along.add(std::abs(axes.along.dot(error)), p.along);
     across.add(std::abs(axes.across.dot(error)), p.across);
     horizontal.add(error.norm(), p.horizontal);

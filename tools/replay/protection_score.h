@@ -13,10 +13,10 @@
 namespace maploop::fusion_score {
 
 struct ProtectionScore {
-  // Of one level, where no aid is doubted: how many errors are beyond it, and its median.
+  // This describes one level, over the moments in which no aid is doubted.
   struct Level {
-    std::size_t beyond = 0;
-    double median = 0.0;  // m
+    std::size_t beyond = 0;  // errors beyond it
+    double median = 0.0;     // m
   };
 
   double risk = 0.0;        // that the levels are made for

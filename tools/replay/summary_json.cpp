@@ -23,21 +23,6 @@ json to_json(const fusion_score::Score& s) {
   return j;
 }
 
-json to_json(const fusion_score::ProtectionScore& s) {
-  const auto level = [](const fusion_score::ProtectionScore::Level& l) {
-    return json{{"beyond", l.beyond}, {"median_m", l.median}};
-  };
-  return {{"risk", s.risk},
-          {"moments", s.moments},
-          {"doubted", s.doubted},
-          {"along", level(s.along)},
-          {"across", level(s.across)},
-          {"horizontal", level(s.horizontal)},
-          {"largest_ratio", s.largest_ratio},
-          {"below_5_m", s.below_5},
-          {"below_10_m", s.below_10}};
-}
-
 json to_json(const LatencySummary& s) {
   json j = web::to_json(profile::percentiles, s);
   j["misses"] = s.misses;
@@ -98,7 +83,7 @@ void add_scores(json& j, const ReplayResult& r) {
   j["odom"] = accuracy(r.odom);
   if (r.ppp) j["ppp"] = to_json(*r.ppp);
   j["navigation"] = r.navigation ? to_json(*r.navigation) : json(nullptr);
-  j["protection"] = r.protection ? to_json(*r.protection) : json(nullptr);
+  j["protection"] = r.protection ? web::to_json(protection_columns, *r.protection) : json(nullptr);
   j["outage_ends"] = web::list(outage_end_columns, r.outage_ends);
   j["links"] = r.links ? match::to_json(*r.links) : json(nullptr);
   if (r.links && r.links->lacking_fixes > 0) {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "ppp/filter/median.h"
+#include "msgs/median.h"
 #include "ppp/ppp_setup.h"
 #include "tests/support/real_data.h"
 

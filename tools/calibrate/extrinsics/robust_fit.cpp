@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "msgs/median.h"
+
 namespace maploop::extrinsics {
 namespace {
 
@@ -70,9 +72,7 @@ MatrixXd covariance_of(const MatrixXd& inverse, const Weighted& w) {
 double median_size(std::vector<double> numbers) {
   if (numbers.empty()) return 0.0;
   for (double& x : numbers) x = std::abs(x);
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
+  return median(numbers);
 }
 
 Fit robust_fit(std::span<const Equation> equations, const VectorXd& from_prior,

@@ -2,15 +2,15 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
+#include <span>
 
-namespace maploop::ppp {
+namespace maploop {
 
 // Precondition: there is at least one value. The order of the values changes.
-inline double median(std::vector<double>& values) {
+inline double median(std::span<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-}  // namespace maploop::ppp
+}  // namespace maploop
