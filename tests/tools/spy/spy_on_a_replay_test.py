@@ -30,8 +30,8 @@ def check(what, condition, shown=""):
 
 
 def replay():
-    """Half a minute of it; returns when it can be heard, which takes a while on a busy machine."""
-    publishing = subprocess.Popen([MAPLOOP, "replay", DRIVE, "--loop", "2"],
+    """Three quarters of a minute of it; returns when it can be heard, which takes a while on a busy machine."""
+    publishing = subprocess.Popen([MAPLOOP, "replay", DRIVE, "--loop", "3"],
                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     for _ in range(60):
         heard = subprocess.run([MAPLOOP, "spy", "--once", "--seconds", "1"], capture_output=True,
@@ -48,11 +48,23 @@ def output(*command):
     return result.stdout
 
 
+def halts(table):
+    """What a busy machine held up, in seconds, as the table names it: a data clock that stood, a stage that did."""
+    return sum(float(s) for s in re.findall(r"(?:stalled \d+ times?, |stuck for )([0-9.]+) s", table))
+
+
 def for_scripts():
     publishing = replay()
-    live = subprocess.Popen([MAPLOOP, "profile", "--live", "--seconds", "7", "--json", "/dev/stderr"],
-                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    table = output("spy", "--once", "--seconds", "7")
+    # A window in which the machine held something up is measured again, twice at most.
+    for _ in range(3):
+        live = subprocess.Popen([MAPLOOP, "profile", "--live", "--seconds", "7", "--json", "/dev/stderr"],
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        table = output("spy", "--once", "--seconds", "7")
+        out, error = live.communicate(timeout=60)
+        check("profile --live: status", live.returncode == 0, error)
+        stalled = halts(table)
+        if not stalled:
+            break
     lines = table.splitlines()
     columns = lines[0].split()
     check("the columns", columns == ["CHANNEL", "TYPE", "COUNT", "RATE_HZ", "JITTER_MS", "AGE_S",
@@ -70,11 +82,9 @@ def for_scripts():
              "NAV_PROTECTION": "nav_protection_t", "SELF_CALIBRATION": "self_calibration_t"}
     rates = {"NAV_STATE": 100, "ODOM_STATE": 100, "NAV_PROTECTION": 10, "VO": 10, "IMU": 10, "TRUTH": 10,
              "GNSS_FIX": 1, "HEALTH": 1, "DEADLINES": 1, "LIDAR_ODOMETRY": 10, "ODOMETRY": 10, "SELF_CALIBRATION": 1}
-    # A busy machine stalls the data clock, and the table says for how long: the figures are judged by what is left.
-    stall = re.search(r"stalled \d+ times?, ([0-9.]+) s in all", table)
-    stalled = float(stall.group(1)) if stall else 0.0
+    # Where every window was disturbed, the figures are judged by what is left of the last.
     pace = min(1.0, float(rows["NAV_STATE"]["RATE_HZ"]) / rates["NAV_STATE"])
-    check("the pace, but for stalls that are named", pace > 0.9 if not stall else pace > 0.2, table)
+    check("the pace, but for stalls that are named", pace > 0.2 if stalled else pace > 0.9, table)
     for name in sorted(steady):
         row = rows[name]
         check(f"{name}: type", row["TYPE"] == "maploop_lcm." + types[name], table)
@@ -95,8 +105,6 @@ def for_scripts():
     check("JSON of one channel", [row["channel"] for row in rows] == ["NAV_STATE"], rows)
     check("JSON has numbers", rows[0]["rate_hz"] > 50 * pace and rows[0]["bad"] == 0, rows)
 
-    out, error = live.communicate(timeout=60)
-    check("profile --live: status", live.returncode == 0, error)
     check("profile --live: table", "From release to result" in out, out)
     check("profile --live: figures", json.loads(error)["threads"]["fusion"]["count"] > 300 * pace, error)
     check("the replay has ended well", publishing.wait(timeout=60) == 0)
