@@ -13,6 +13,7 @@
 #include "tools/ppp/page_data.h"
 #include "tools/web/html.h"
 #include "tools/web/page.h"
+#include "tools/web/stanford.h"
 #include "tools/web/table.h"
 
 namespace maploop::gnss {
@@ -162,23 +163,18 @@ Plot across(const Score& score, const Score& without_map, GpsTime first) {
   return plot;
 }
 
-// Errors beyond their protection level lie below the diagonal.
 Plot stanford(const Score& score, double integrity_risk) {
-  Plot plot{fmt::format("Stanford plot: {} of {} errors beyond their level, risk {:g}",
-                        score.misleading(), 3 * score.errors().size(), integrity_risk),
-            "error, m", "protection level, m"};
   const char* names[3] = {"along", "across", "up"};
-  double largest = 0.0;
+  std::vector<Line> lines;
   for (int i = 0; i < 3; ++i) {
     Line line{names[i], {}, {}, Line::Look::points};
-    for (const ErrorAt& e : score.errors()) {
-      line.add(std::abs(e.travel[i]), e.protection[i]);
-      largest = std::max(largest, std::abs(e.travel[i]));
-    }
-    plot.lines.push_back(std::move(line));
+    for (const ErrorAt& e : score.errors()) line.add(std::abs(e.travel[i]), e.protection[i]);
+    lines.push_back(std::move(line));
   }
-  plot.lines.push_back({"error = level", {0.0, largest}, {0.0, largest}});
-  return plot;
+  return web::stanford_plot(
+      fmt::format("Stanford plot: {} of {} errors beyond their level, risk {:g}",
+                  score.misleading(), 3 * score.errors().size(), integrity_risk),
+      std::move(lines));
 }
 
 // Missing epochs, and what the filter said, for as long as it said it.

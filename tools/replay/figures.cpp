@@ -72,7 +72,7 @@ const web::Columns<OutageEnd> outage_end_columns{
 
 const web::Columns<ProtectionScore> protection_columns{
     {"risk", "", 0, 0, &ProtectionScore::risk},
-    {"moments", "", 0, 0, &ProtectionScore::moments},
+    {"moments", "", 0, 0, [](const auto& s) { return s.moments.size(); }},
     {"doubted", "", 0, 0, &ProtectionScore::doubted},
     {"along/beyond", "", 0, 0, [](const auto& s) { return s.along.beyond; }},
     {"along/median_m", "", 0, 0, [](const auto& s) { return s.along.median; }},

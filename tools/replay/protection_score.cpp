@@ -11,67 +11,68 @@
 namespace maploop::fusion_score {
 namespace {
 
-// Gathers one level's errors.
-class LevelCounter {
- public:
-  void add(double error, double level) {
-    beyond_ += error > level;
-    levels_.push_back(level);
-    largest_ratio_ = std::max(largest_ratio_, error / level);
+std::vector<ProtectedMoment> moments_of(const std::vector<NavProtection>& levels,
+                                        const NavTrack& track,
+                                        const std::vector<ReferencePose>& reference, Time from) {
+  std::map<Time, const NavProtection*> at;
+  for (const NavProtection& p : levels) at[p.stamp] = &p;
+  std::vector<ProtectedMoment> moments;
+  for (const ScoredState& scored : scored_states(track, reference)) {
+    const NavState& state = *scored.state;
+    const auto found = at.find(state.stamp);
+    if (state.stamp < from || found == at.end()) continue;
+    const NavProtection& p = *found->second;
+    const Eigen::Vector2d error = (state.position_enu - scored.truth.translation()).head<2>();
+    const TravelAxes axes = travel_axes(state.velocity_enu);
+    moments.push_back({state.stamp,
+                       p.doubted,
+                       {std::abs(axes.along.dot(error)), p.along},
+                       {std::abs(axes.across.dot(error)), p.across},
+                       {error.norm(), p.horizontal}});
   }
-  ProtectionScore::Level result() const { return {beyond_, tools::median(levels_)}; }
-  std::size_t below(double limit) const {
-    const auto below = std::count_if(levels_.begin(), levels_.end(),
-                                     [limit](double level) { return level < limit; });
-    return static_cast<std::size_t>(below);
-  }
-  double largest_ratio() const { return largest_ratio_; }
-  std::size_t count() const { return levels_.size(); }
+  return moments;
+}
 
- private:
-  std::size_t beyond_ = 0;
-  std::vector<double> levels_;
-  double largest_ratio_ = 0.0;
-};
+ProtectionScore::Level level_of(const std::vector<ProtectedMoment>& moments,
+                                ProtectedMoment::Error ProtectedMoment::*which) {
+  ProtectionScore::Level result;
+  std::vector<double> levels;
+  for (const ProtectedMoment& moment : moments) {
+    if (moment.doubted) continue;
+    result.beyond += (moment.*which).beyond();
+    levels.push_back((moment.*which).level);
+  }
+  result.median = tools::median(levels);
+  return result;
+}
 
 }  // namespace
 
 std::optional<ProtectionScore> score(const std::vector<NavProtection>& levels,
                                      const NavTrack& track,
                                      const std::vector<ReferencePose>& reference, Time from) {
-  std::map<Time, const NavProtection*> at;
-  for (const NavProtection& p : levels) at[p.stamp] = &p;
-  LevelCounter along, across, horizontal;
-  std::size_t doubted = 0;
-  for (const ScoredState& scored : scored_states(track, reference)) {
-    const NavState& state = *scored.state;
-    const auto found = at.find(state.stamp);
-    if (state.stamp < from || found == at.end()) continue;
-    const NavProtection& p = *found->second;
-    if (p.doubted) {
-      ++doubted;
+  ProtectionScore result;
+  result.moments = moments_of(levels, track, reference, from);
+  if (result.moments.empty()) return std::nullopt;
+  result.risk = levels.front().risk;
+  result.along = level_of(result.moments, &ProtectedMoment::along);
+  result.across = level_of(result.moments, &ProtectedMoment::across);
+  result.horizontal = level_of(result.moments, &ProtectedMoment::horizontal);
+  std::size_t below_5 = 0, below_10 = 0;
+  for (const ProtectedMoment& moment : result.moments) {
+    if (moment.doubted) {
+      ++result.doubted;
       continue;
     }
-    const Eigen::Vector2d error = (state.position_enu - scored.truth.translation()).head<2>();
-    const TravelAxes axes = travel_axes(state.velocity_enu);
-    along.add(std::abs(axes.along.dot(error)), p.along);
-    across.add(std::abs(axes.across.dot(error)), p.across);
-    horizontal.add(error.norm(), p.horizontal);
+    const ProtectedMoment::Error& error = moment.horizontal;
+    result.largest_ratio = std::max(result.largest_ratio, error.ratio());
+    below_5 += error.level < 5.0;
+    below_10 += error.level < 10.0;
   }
-  const std::size_t moments = along.count() + doubted;
-  if (moments == 0) return std::nullopt;
-  const auto share_below = [&](double limit) {
-    return static_cast<double>(horizontal.below(limit)) / static_cast<double>(moments);
-  };
-  return ProtectionScore{levels.front().risk,
-                         moments,
-                         doubted,
-                         along.result(),
-                         across.result(),
-                         horizontal.result(),
-                         horizontal.largest_ratio(),
-                         share_below(5.0),
-                         share_below(10.0)};
+  const auto all = static_cast<double>(result.moments.size());
+  result.below_5 = static_cast<double>(below_5) / all;
+  result.below_10 = static_cast<double>(below_10) / all;
+  return result;
 }
 
 std::string to_text(const ProtectionScore& s) {
@@ -81,7 +82,7 @@ std::string to_text(const ProtectionScore& s) {
   return fmt::format(
              "\nProtection levels     beyond  median m   (risk {:g}, {} moments, in {} of them an "
              "aid was doubted)\n",
-             s.risk, s.moments, s.doubted) +
+             s.risk, s.moments.size(), s.doubted) +
          line("along the way", s.along) + line("across", s.across) +
          line("horizontal", s.horizontal) +
          fmt::format(

@@ -12,6 +12,21 @@
 
 namespace maploop::fusion_score {
 
+// The horizontal error of the fused position at one moment, beside its levels. The levels do not
+// hold where an aid was doubted.
+struct ProtectedMoment {
+  struct Error {
+    double size = 0.0;   // m
+    double level = 0.0;  // m
+    bool beyond() const { return size > level; }
+    double ratio() const { return size / level; }
+  };
+
+  Time stamp;
+  bool doubted = false;
+  Error along, across, horizontal;
+};
+
 struct ProtectionScore {
   // This describes one level, over the moments in which no aid is doubted.
   struct Level {
@@ -19,9 +34,10 @@ struct ProtectionScore {
     double median = 0.0;     // m
   };
 
-  double risk = 0.0;        // that the levels are made for
-  std::size_t moments = 0;  // ten a second, where the reference is good enough
-  std::size_t doubted = 0;  // of these, in which an aid was doubted: the levels do not hold
+  double risk = 0.0;  // that the levels are made for
+  // There are ten a second, where the reference is good enough.
+  std::vector<ProtectedMoment> moments;
+  std::size_t doubted = 0;  // of these, in which an aid was doubted
   Level along, across, horizontal;
   double largest_ratio = 0.0;  // 1, of a horizontal error to its level, the same
   double below_5 = 0.0,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "tools/report/sections.h"
@@ -19,8 +18,6 @@ using web::figure;
 using web::paragraph;
 using web::Plot;
 using States = std::map<Time, PppState>;
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // The error of one epoch with a position.
 struct EpochError {

@@ -116,6 +116,7 @@ void write_report(const std::filesystem::path& file, const ReplayReport& r) {
   page.add(heading("Health") + notes(health.degraded));
   page.add(heading(error_heading) + navigation(result.navigation)).add(state_plots(scene));
   page.add(heading("Events")).add_events().add(accuracy(result));
+  add_protection(page, scene);
   add_roads(page, scene);
   add_ppp(page, scene);
   add_calibration(page, scene);

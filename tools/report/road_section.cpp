@@ -1,5 +1,4 @@
 #include <array>
-#include <limits>
 
 #include "tools/report/sections.h"
 #include "tools/web/html.h"
@@ -60,9 +59,7 @@ Plot probability(const Scene& scene) {
   Plot plot{"P(link)", "s", "1", {{"of the matched link", {}, {}}}};
   plot.over_time = true;
   for (const auto& [stamp, moment] : scene.report.pass.matches) {
-    plot.lines[0].add(scene.second(stamp), moment.on_road
-                                               ? moment.matched.p_link
-                                               : std::numeric_limits<double>::quiet_NaN());
+    plot.lines[0].add(scene.second(stamp), moment.on_road ? moment.matched.p_link : unknown);
   }
   return plot;
 }

@@ -1,6 +1,7 @@
 // The parts of the page, and what their pictures share.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 namespace maploop::report {
 
 inline constexpr double sigmas = 3.0;
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  // a gap in a line
 
 // Headings that events lead to.
 inline constexpr const char* error_heading = "Absolute error";
@@ -61,6 +63,10 @@ web::Plot trajectory_map(const Scene& scene);
 // Plots against seconds of the drive: errors with three of the filter's standard deviations, and
 // the speed. Without a truth only the standard deviations and the fused speed.
 std::vector<web::Plot> state_plots(const Scene& scene);
+
+// Adds how the errors of the fused position compare with their protection levels, if there is a
+// reference for any.
+void add_protection(web::Page& page, const Scene& scene);
 
 // Adds the roads that the vehicle was matched to, if any, and how often they were right if the
 // recording contains the links driven.

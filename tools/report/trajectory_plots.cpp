@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 
 #include "msgs/frames.h"
@@ -14,7 +13,6 @@ namespace {
 using web::Line;
 using web::Plot;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double surroundings = 150.0;  // m, margin around the path in which roads are drawn
 
 Geodetic origin_of(const ReplayReport& r) {
@@ -40,7 +38,7 @@ void add(Line& line, double second, const Eigen::Vector3d& p) {
 // Ends a line where it has a gap.
 void lift(Line& line, double second) {
   if (!line.x.empty() && std::isfinite(line.x.back()))
-    add(line, second, Eigen::Vector3d::Constant(nan));
+    add(line, second, Eigen::Vector3d::Constant(unknown));
 }
 
 // Leaves as much of a way as can be seen.
@@ -160,7 +158,7 @@ ErrorSeries error_of(const Scene& scene, const Quantity& q) {
   ErrorSeries series{q.name, q.unit, "fused"};
   for (const NavState& s : scene.states()) {
     const auto pose = scene.truth ? scene.truth->pose(s.stamp) : std::nullopt;
-    double off = pose ? q.value(s) - q.truth(*pose) : nan;
+    double off = pose ? q.value(s) - q.truth(*pose) : unknown;
     if (q.wraps) off = std::remainder(off, 360.0);
     series.seconds.push_back(scene.second(s.stamp));
     series.error.push_back(off);

@@ -59,7 +59,7 @@ TEST(ProtectionScore, CountsErrorsBeyondTheLevelsThatHold) {
   const auto scored = score(levels, track(), reference(0.1), Time::min());
   ASSERT_TRUE(scored);
   EXPECT_EQ(scored->risk, 1e-4);
-  EXPECT_EQ(scored->moments, 201u);
+  EXPECT_EQ(scored->moments.size(), 201u);
   EXPECT_EQ(scored->doubted, 50u);
   EXPECT_EQ(scored->along.beyond, 50u) << "5 m, from 5 to 10 s";
   EXPECT_EQ(scored->across.beyond, 0u);
@@ -68,7 +68,7 @@ TEST(ProtectionScore, CountsErrorsBeyondTheLevelsThatHold) {
   EXPECT_NEAR(scored->horizontal.median, 4.5, 1e-9);
   EXPECT_NEAR(scored->below_5, 101.0 / 201.0, 1e-9);
   EXPECT_NEAR(scored->below_10, scored->below_5, 1e-9);
-  EXPECT_EQ(score(levels, track(), reference(0.5), Time::min())->moments, 101u)
+  EXPECT_EQ(score(levels, track(), reference(0.5), Time::min())->moments.size(), 101u)
       << "only where the reference is good enough";
   EXPECT_FALSE(score(levels, track(), {}, Time::min()));
   EXPECT_FALSE(score({}, track(), reference(0.1), Time::min()));

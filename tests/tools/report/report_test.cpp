@@ -99,6 +99,24 @@ TEST(Report, PppIsScoredAtTheAntenna) {
   EXPECT_FALSE(has(page, "Link identification"));
 }
 
+TEST(Report, ErrorsAreComparedWithTheirProtectionLevels) {
+  tools::ReplayResult result;
+  auto& protection = result.protection.emplace();
+  protection.risk = 1e-4;
+  for (int i = 0; i < 10; ++i)
+    protection.moments.push_back({at(0.1 * i), i >= 8, {1.0, 2.0}, {0.5, 1.5}, {1.25, 2.25}});
+  protection.doubted = 2;
+  protection.along = {3, 2.0};
+  const std::string page = page_of(result, {}, {}, straight_drive(2.0));
+  EXPECT_TRUE(has(page, "There are 10 moments with a reference; in 2 of them an aid was doubted"));
+  EXPECT_TRUE(has(page, "<td>along the way</td><td>3</td><td>2.00</td>"));
+  EXPECT_TRUE(has(page, "Stanford plot of the fused position"));
+  EXPECT_TRUE(has(page, "horizontal, with an aid doubted"));
+  // The level of a moment in which it does not hold is a gap.
+  EXPECT_TRUE(has(page, "2.25,null")) << page.substr(page.find("its protection level"), 600);
+  EXPECT_FALSE(has(page_of({}, {}, {}, straight_drive(2.0)), "Protection levels"));
+}
+
 TEST(Report, PppWithoutATruthOrAnyPositionSaysSo) {
   EXPECT_TRUE(has(page_of({}, {}, ppp_of(10.0), {}), "There is no truth at its epochs"));
   EXPECT_TRUE(has(page_of({}, {}, ppp_of(1.0), {}), "1 epochs, 0.0 % with a position"));
