@@ -52,7 +52,12 @@ class TileCollector {
     if (!waiting_) throw cannot_write(waiting);
   }
 
-  void add(const TiledWay& way) {
+  static TilePlace place_of(const TiledNode& node) {
+    return tile_at(node.latitude / TiledNode::per_degree, node.longitude / TiledNode::per_degree);
+  }
+
+  // Returns the tiles that the way is in.
+  static std::set<TilePlace> places_of(const TiledWay& way) {
     std::set<TilePlace> places;
     const TiledNode* last = nullptr;
     for (const TiledNode& node : way.nodes) {
@@ -63,6 +68,11 @@ class TileCollector {
         last = nullptr;
       }
     }
+    return places;
+  }
+
+  void add(const TiledWay& way) {
+    const std::set<TilePlace> places = places_of(way);
     for (const TilePlace& place : places) tiles_[place].content.ways.push_back(way);
     in_memory_ += way.nodes.size() * places.size();
     if (in_memory_ > nodes_in_memory) put_away();
@@ -114,10 +124,6 @@ class TileCollector {
     Tile content;
     std::vector<Piece> pieces;
   };
-
-  static TilePlace place_of(const TiledNode& node) {
-    return tile_at(node.latitude / TiledNode::per_degree, node.longitude / TiledNode::per_degree);
-  }
 
   // Adds all tiles of the box around two nodes. Those of a segment that is too long or crosses the
   // 180th meridian are the ones of its ends.

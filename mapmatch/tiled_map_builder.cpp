@@ -5,6 +5,7 @@
 #include <osmium/io/any_input.hpp>
 #include <stdexcept>
 
+#include "mapmatch/corrected_roads.h"
 #include "mapmatch/osm_objects.h"
 #include "mapmatch/road_nodes.h"
 #include "mapmatch/tile_collector.h"
@@ -36,12 +37,14 @@ std::filesystem::path replaceable(const std::filesystem::path& file) {
 
 BuiltTiles build_tiled_map(const std::filesystem::path& map, const std::filesystem::path& given,
                            const OsmOptions& options,
-                           const std::function<void(const std::string& step)>& progress) {
+                           const std::function<void(const std::string& step)>& progress,
+                           const MapCorrection& correction) {
   const std::filesystem::path result = replaceable(given);
   BuiltTiles built;
   TileTable& table = built.table;
   const Scratch unfinished(result.string() + ".unfinished");
   TileCollector tiles(result.string() + ".waiting");
+  CorrectedRoads corrected(correction);
   read_map_file(map, [&](const osmium::io::File& file) {
     RoadNodes nodes(options.max_nodes);
     progress("which nodes roads have");
@@ -66,6 +69,7 @@ BuiltTiles build_tiled_map(const std::filesystem::path& map, const std::filesyst
              if (!found->usable()) return;
              const TiledNode via = nodes.node(found->restriction.via_node);
              if (via.latitude == TiledNode::nowhere) return;
+             if (corrected.keep(found->restriction, via)) return;
              tiles.add(found->restriction, via);
              ++table.restrictions;
              return;
@@ -79,11 +83,13 @@ BuiltTiles build_tiled_map(const std::filesystem::path& map, const std::filesyst
              missing += tiled.nodes.back().latitude == TiledNode::nowhere ? 1 : 0;
            }
            if (missing == tiled.nodes.size()) return;
+           built.missing_nodes += missing;
+           if (corrected.keep(tiled)) return;
            tiles.add(tiled);
            ++table.ways;
-           built.missing_nodes += missing;
          });
     table.nodes = nodes.size();
+    corrected.give(tiles, table);
     if (table.ways == 0)
       throw std::runtime_error(options.box ? "it has no roads inside the box" : "it has no roads");
   });

@@ -126,6 +126,60 @@ TEST(TiledMap, ABoxHasTheRoadsOfItsTilesWhole) {
               HasSubstr("more than 4 nodes"));
 }
 
+TEST(TiledMap, ACorrectionIsGivenTheRoadsOfItsTilesAndNoOthers) {
+  TemporaryFolder folder;
+  const auto tiles = folder.path() / "a.tiles";
+  MapExtract given;
+  const auto correct = [&](MapExtract& map) {
+    given = map;
+    map.restrictions.clear();
+    map.nodes.push_back({99, 49.02, 8.43});
+    MapWay added;
+    added.road.way_id = 77;
+    added.nodes = {2, 99};
+    map.ways.push_back(added);
+    map.ways[0].nodes.push_back(99);
+  };
+  const BuiltTiles built =
+      build_tiled_map(OsmFile(folder.path())
+                          .node(1, 49.01, 8.41)
+                          .node(2, 49.02, 8.42)
+                          .node(3, 49.02, 8.47)
+                          .node(4, 49.11, 8.41)
+                          .node(5, 49.12, 8.41)
+                          .road(10, {1, 2})
+                          .road(11, {2, 3, 404})
+                          .road(12, {4, 5})
+                          .ban(10, 2, 11)
+                          .ban(12, 4, 12)
+                          .write(),
+                      tiles, {}, [](const std::string&) {}, {{tile_at(49.01, 8.41)}, correct});
+  EXPECT_THAT(ways_of(given), ElementsAre(10, 11));
+  EXPECT_EQ(given.restrictions.size(), 1u);
+  EXPECT_EQ(built.table.ways, 4u);
+  EXPECT_EQ(built.table.restrictions, 1u);
+  EXPECT_EQ(built.missing_nodes, 1u);
+  const TiledMap map(tiles);
+  const MapExtract whole = map.read();
+  EXPECT_THAT(ways_of(whole), ElementsAre(10, 11, 12, 77));
+  EXPECT_THAT(whole.ways[0].nodes, ElementsAre(1, 2, 99));
+  ASSERT_EQ(whole.restrictions.size(), 1u);
+  EXPECT_EQ(whole.restrictions[0].via_node, 4);
+  ASSERT_EQ(whole.nodes.size(), 6u);
+  EXPECT_NEAR(whole.nodes.back().longitude, 8.43, 1e-9);
+  EXPECT_THAT(ways_of(map.read(at(49.01, 8.48))), ElementsAre(11)) << "it is in both of its tiles";
+}
+
+TEST(TiledMap, ACorrectionWithoutAnyRoadIsAskedAllTheSame) {
+  TemporaryFolder folder;
+  int asked = 0;
+  build_tiled_map(
+      OsmFile(folder.path()).node(1, 49.01, 8.41).node(2, 49.01, 8.42).road(10, {1, 2}).write(),
+      folder.path() / "a.tiles", {}, [](const std::string&) {},
+      {{tile_at(0.0, 0.0)}, [&](MapExtract& map) { asked += map.ways.empty() ? 1 : 100; }});
+  EXPECT_EQ(asked, 1);
+}
+
 TEST(TiledMap, ASegmentIsInTheTilesThatItCrosses) {
   TemporaryFolder folder;
   const auto tiles = folder.path() / "a.tiles";

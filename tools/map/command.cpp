@@ -49,13 +49,17 @@ struct OpenedNetwork {
   double milliseconds;
 };
 
-mapmatch::NetworkData corrected(const MapOptions& options) {
-  const auto doubts = match::read_doubts(options.doubts, options.min_probability);
-  mapmatch::MapExtract map = mapmatch::read_osm(options.input, options.osm());
+void correct(mapmatch::MapExtract& map, const std::vector<MapDoubt>& doubts) {
   const match::Corrections done = match::correct(map, doubts);
   std::cout << fmt::format(
       "corrected: {} missing roads, {} directions, {} turns; {} doubts are left as they are\n",
       done.roads, done.directions, done.turns, done.left);
+}
+
+mapmatch::NetworkData corrected(const MapOptions& options) {
+  const auto doubts = match::read_doubts(options.doubts, options.min_probability);
+  mapmatch::MapExtract map = mapmatch::read_osm(options.input, options.osm());
+  correct(map, doubts);
   return mapmatch::build_network(map);
 }
 
@@ -127,9 +131,16 @@ int build_tiles(const MapOptions& options) {
   int step = 0;
   mapmatch::OsmOptions osm = options.osm();
   osm.max_nodes = 100'000'000;  // 16 bytes each
+  mapmatch::MapCorrection correction;
+  if (!options.doubts.empty()) {
+    const auto doubts = match::read_doubts(options.doubts, options.min_probability);
+    correction = {match::places_of(doubts),
+                  [doubts](mapmatch::MapExtract& map) { correct(map, doubts); }};
+  }
   const mapmatch::BuiltTiles built = mapmatch::build_tiled_map(
       options.input, options.output, osm,
-      [&](const std::string& name) { std::cerr << fmt::format("[{}/4] {}\n", ++step, name); });
+      [&](const std::string& name) { std::cerr << fmt::format("[{}/4] {}\n", ++step, name); },
+      correction);
   std::cout << fmt::format(
       "{} ways with {} nodes in {} tiles; {} turn restrictions\n"
       "wrote {}, {} bytes\n",
@@ -216,8 +227,7 @@ void add_map(CLI::App& app, Command& command) {
              "are left")
           ->check(existing_file());
   sub->add_flag("--tiles", options->tiles,
-                "Make a tiled map instead, for countries: it is read only near the vehicle")
-      ->excludes(doubts);
+                "Make a tiled map instead, for countries: it is read only near the vehicle");
   sub->add_option("--doubts-probability", options->min_probability,
                   "Only by those that are at least so likely")
       ->needs(doubts)

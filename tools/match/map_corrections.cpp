@@ -18,6 +18,7 @@ using mapmatch::MapExtract;
 using mapmatch::MapNode;
 using mapmatch::MapWay;
 
+constexpr std::int64_t first_added = std::int64_t{1} << 50;
 constexpr double reach = 100.0;      // m: the matcher takes so long to leave the road that ends
 constexpr double on_the_road = 5.0;  // m
 constexpr double most = 0.7;         // of the points of a track
@@ -32,7 +33,7 @@ Eigen::Vector2d foot(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 class Corrector {
  public:
   explicit Corrector(MapExtract& map) : map_(map) {
-    if (!map.nodes.empty()) next_node_ = map.nodes.back().id + 1;
+    if (!map.nodes.empty()) next_node_ = std::max(next_node_, map.nodes.back().id + 1);
     for (const MapWay& way : map.ways) next_way_ = std::max(next_way_, way.road.way_id + 1);
   }
 
@@ -146,10 +147,26 @@ class Corrector {
   }
 
   MapExtract& map_;
-  std::int64_t next_node_ = 1, next_way_ = 1;
+  std::int64_t next_node_ = first_added, next_way_ = first_added;
 };
 
 }  // namespace
+
+std::set<mapmatch::TilePlace> places_of(const std::vector<MapDoubt>& doubts) {
+  std::set<mapmatch::TilePlace> places;
+  for (const MapDoubt& doubt : doubts) {
+    for (std::size_t i = 0; i < doubt.track_count; ++i) {
+      const LocalFrame frame(doubt.track[i]);
+      for (const double east : {-reach, reach}) {
+        for (const double north : {-reach, reach}) {
+          const Geodetic corner = frame.to_geodetic({east, north, 0.0});
+          places.insert(mapmatch::tile_at(degrees(corner.latitude), degrees(corner.longitude)));
+        }
+      }
+    }
+  }
+  return places;
+}
 
 Corrections correct(MapExtract& map, const std::vector<MapDoubt>& doubts) {
   Corrector corrector(map);

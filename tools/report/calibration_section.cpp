@@ -17,6 +17,7 @@ double left(const CalibratedProperty& p) {
   return p.sigma_at_start > 0.0 ? p.sigma / p.sigma_at_start : 1.0;
 }
 
+constexpr std::size_t fewest_drawn = 3;
 constexpr double shown_below = 0.9;  // of it left: what the drive has hardly shown has no picture
 
 // Indices of the properties, the best observed first.
@@ -77,10 +78,16 @@ void add_calibration(web::Page& page, const Scene& scene) {
                           "observed first. A property is observed once the drive has halved its "
                           "standard deviation; before that its value is what was given.") +
            table_of(last, order));
-  std::vector<web::Plot> plots;
-  for (const std::size_t i : order)
-    if (left(last[i]) < shown_below) plots.push_back(convergence(scene, i));
-  page.add(plots);
+  if (moments.size() < fewest_drawn) {
+    page.add(
+        web::paragraph("The values come once a second of the run, which was too short to draw "
+                       "them over the drive: replay it in real time."));
+  } else {
+    std::vector<web::Plot> plots;
+    for (const std::size_t i : order)
+      if (left(last[i]) < shown_below) plots.push_back(convergence(scene, i));
+    page.add(plots);
+  }
   page.add(web::folded("The car as it was described", vehicle_tool::drawing(scene.report.config)));
 }
 

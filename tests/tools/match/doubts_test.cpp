@@ -260,6 +260,16 @@ TEST(MapCorrections, ARoadThatTheMapHasByNowOrThatJoinsNothingIsLeft) {
   EXPECT_EQ(elsewhere.nodes.size(), nodes);
 }
 
+TEST(MapCorrections, NeedTheTilesWithin100MetresOfTheirTracks) {
+  MapDoubt doubt;
+  doubt.track[0] = {radians(49.025), radians(8.425), 0.0};
+  doubt.track[1] = {radians(49.025), radians(8.449), 0.0};  // 70 m from the next tile
+  doubt.track_count = 2;
+  EXPECT_THAT(places_of({doubt}), ::testing::ElementsAre(mapmatch::tile_at(49.025, 8.425),
+                                                         mapmatch::tile_at(49.025, 8.451)));
+  EXPECT_THAT(places_of({}), IsEmpty());
+}
+
 TEST(MapCorrections, WhatTheMapHasNoLongerIsLeftAndCounted) {
   MapDoubt shifted, gone, turn;
   shifted.kind = DoubtKind::shifted_road;
