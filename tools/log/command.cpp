@@ -83,8 +83,7 @@ int black_box(const LogOptions& o) {
 
 int diff(const LogOptions& o) {
   lcm_log::ChannelFilter filter = [](std::string_view channel) {
-    return channel != channel_names::deadlines && channel != channel_names::health &&
-           channel != channel_names::self_calibration;
+    return channel != channel_names::deadlines && channel != channel_names::health;
   };
   if (o.channels) filter = lcm_log::matching(*o.channels);
   return lcm_log::diff(o.log, o.other, o.schema(), filter, std::cout) ? 0 : exit_found;
@@ -178,8 +177,8 @@ void add_log(CLI::App& app, Command& command) {
   add_log("A", options->log);
   add_log("B", options->other);
   sub->add_option("--channels", options->channels,
-                  "Regular expression of whole channel names; without it all but DEADLINES, "
-                  "HEALTH and SELF_CALIBRATION, whose moments are the run's and not the data's");
+                  "Regular expression of whole channel names; without it all but DEADLINES "
+                  "and HEALTH, whose moments are the run's and not the data's");
 }
 
 }  // namespace maploop::tools

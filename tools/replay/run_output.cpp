@@ -150,10 +150,10 @@ void RunOutput::say_place(fusion::PlaceUse use) {
 void RunOutput::keep_car_state(vehicle::Observer& observer) {
   if (options_.state.empty()) return;
   car_state_written_ = runtime::monotonic_now();
-  observer.calibration = [this](Time at, const fusion::SelfCalibrations& estimated) {
+  observer.calibration = [this](const vehicle::CalibrationReport& estimated) {
     const std::lock_guard lock(car_state_mutex_);
-    car_state_.at = at;
-    car_state_.calibration = estimated;
+    car_state_.at = estimated.stamp;
+    car_state_.calibration = estimated.properties;
   };
   observer.place = [this](fusion::PlaceUse use, const std::optional<fusion::LastPlace>& here) {
     const std::lock_guard lock(car_state_mutex_);

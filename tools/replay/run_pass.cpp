@@ -138,8 +138,8 @@ vehicle::Observer RunPass::observer() {
   o.map_match = [this](const MapMatch& match) {
     if (match.refusal != FixRefusal::no_position) matches[match.stamp] = road_moment(match);
   };
-  o.calibration = [this](Time at, const fusion::SelfCalibrations& properties) {
-    calibrations.push_back({at, properties});
+  o.calibration = [this](const vehicle::CalibrationReport& report) {
+    calibrations.push_back(report);
   };
   o.map_feedback = [this](const MapFeedback& back) {
     ++feedbacks[static_cast<std::size_t>(back.reason)];

@@ -58,12 +58,6 @@ struct RoadMoment : match::TimedMatch {
 
 RoadMoment road_moment(const MapMatch& match);
 
-// Holds the properties of the car as the filter estimated them at one time.
-struct CalibrationMoment {
-  Time at;
-  fusion::SelfCalibrations properties;
-};
-
 // Filled on the publisher's thread; to be read after the run.
 struct RunPass {
   explicit RunPass(Time cut = Time::min()) : hashes_after(cut) {}
@@ -84,7 +78,7 @@ struct RunPass {
   std::optional<NavState> end;            // the last fused state
   std::map<Time, PppState> ppp_states;
   std::map<Time, RoadMoment> matches;
-  std::vector<CalibrationMoment> calibrations;  // once a second
+  std::vector<vehicle::CalibrationReport> calibrations;  // once a second
   std::array<std::uint64_t, count_of<FeedbackReason>> feedbacks{};
 };
 

@@ -9,7 +9,7 @@ namespace maploop::report {
 namespace {
 
 using fusion::CalibratedProperty;
-using tools::CalibrationMoment;
+using vehicle::CalibrationReport;
 using web::figure;
 
 // The share of a property's uncertainty that the drive has left.
@@ -17,7 +17,6 @@ double left(const CalibratedProperty& p) {
   return p.sigma_at_start > 0.0 ? p.sigma / p.sigma_at_start : 1.0;
 }
 
-constexpr std::size_t fewest_drawn = 3;
 constexpr double shown_below = 0.9;  // of it left: what the drive has hardly shown has no picture
 
 // Indices of the properties, the best observed first.
@@ -52,10 +51,10 @@ web::Plot convergence(const Scene& scene, std::size_t property) {
   plot.over_time = true;
   plot.in_readout = false;
   web::Band band{"3 sigma", {}, {}, {}};
-  for (const CalibrationMoment& moment : moments) {
+  for (const CalibrationReport& moment : moments) {
     const CalibratedProperty& p = moment.properties[property];
     if (p.sigma <= 0.0) continue;  // the filter had not started
-    const double second = scene.second(moment.at);
+    const double second = scene.second(moment.stamp);
     plot.lines[0].add(second, p.value);
     band.x.push_back(second);
     band.low.push_back(p.value - sigmas * p.sigma);
@@ -78,16 +77,10 @@ void add_calibration(web::Page& page, const Scene& scene) {
                           "observed first. A property is observed once the drive has halved its "
                           "standard deviation; before that its value is what was given.") +
            table_of(last, order));
-  if (moments.size() < fewest_drawn) {
-    page.add(
-        web::paragraph("The values come once a second of the run, which was too short to draw "
-                       "them over the drive: replay it in real time."));
-  } else {
-    std::vector<web::Plot> plots;
-    for (const std::size_t i : order)
-      if (left(last[i]) < shown_below) plots.push_back(convergence(scene, i));
-    page.add(plots);
-  }
+  std::vector<web::Plot> plots;
+  for (const std::size_t i : order)
+    if (left(last[i]) < shown_below) plots.push_back(convergence(scene, i));
+  page.add(plots);
   page.add(web::folded("The car as it was described", vehicle_tool::drawing(scene.report.config)));
 }
 

@@ -46,6 +46,9 @@ inline constexpr ChannelSpec odom_state =
 inline constexpr ChannelSpec nav_protection = of_data(
     channel_names::nav_protection, "nav_protection_t", "fusion",
     "how far the fused position may be wrong, along and across the way, by stated risk", "10 Hz");
+inline constexpr ChannelSpec self_calibration =
+    of_data(channel_names::self_calibration, "self_calibration_t", "fusion",
+            "what the filter has estimated of the car and its sensors", "1 Hz");
 inline constexpr ChannelSpec visual_odometry =
     of_data(channel_names::visual_odometry, "relative_motion_t", "stereo",
             "relative pose, covariance, quality", "10 Hz");
@@ -103,15 +106,29 @@ inline constexpr ChannelSpec deadlines = of_run(channel_names::deadlines, "deadl
 inline constexpr ChannelSpec health =
     of_run(channel_names::health, "health_t", "health",
            "threads, rings, rates, losses, refusals, real-time settings, degraded modes", "1 Hz");
-inline constexpr ChannelSpec self_calibration =
-    of_run(channel_names::self_calibration, "self_calibration_t", "health",
-           "what the filter has estimated of the car and its sensors", "1 Hz");
 
-inline constexpr std::array all{nav_state,      odom_state,  nav_protection,  visual_odometry,
-                                lidar_odometry, odometry,    map_match,       map_doubt,
-                                map_feedback,   imu,         gnss_fix,        ppp_state,
-                                wheel_speed,    truth,       camera,          velodyne,
-                                preview,        calibration, replay_control,  run,
-                                deadlines,      health,      self_calibration};
+inline constexpr std::array all{nav_state,
+                                odom_state,
+                                nav_protection,
+                                self_calibration,
+                                visual_odometry,
+                                lidar_odometry,
+                                odometry,
+                                map_match,
+                                map_doubt,
+                                map_feedback,
+                                imu,
+                                gnss_fix,
+                                ppp_state,
+                                wheel_speed,
+                                truth,
+                                camera,
+                                velodyne,
+                                preview,
+                                calibration,
+                                replay_control,
+                                run,
+                                deadlines,
+                                health};
 }  // namespace channels
 }  // namespace maploop::vehicle

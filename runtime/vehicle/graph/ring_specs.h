@@ -39,9 +39,15 @@ namespace maploop::vehicle {
 struct RuntimeReport : Sample {
   Health health;
   Deadlines deadlines;
-  fusion::SelfCalibrations calibration;  // each sigma is 0 before the filter has started
   fusion::PlaceUse place{};
   std::optional<fusion::LastPlace> here;
+};
+
+// What the filter has estimated of the vehicle and its sensors by its stamp.
+struct CalibrationReport : Sample {
+  static constexpr std::uint64_t every = 100;  // of so many states, one has it
+
+  fusion::SelfCalibrations properties;  // each sigma is 0 before the filter has started
 };
 
 // A ring exists in a vehicle that has both of its ends, and if this holds as well.
@@ -127,6 +133,8 @@ inline constexpr RingSpec<RelativeMotion> odometry_publisher{stages::odometry, p
 inline constexpr RingSpec<PppState> ppp_publisher{stages::ppp, publisher, 64};
 inline constexpr RingSpec<FusedState> fusion_publisher{fusion, publisher, 1024};
 inline constexpr RingSpec<FusedState> image_states{fusion, publisher, 256, "at images"};
+inline constexpr RingSpec<CalibrationReport> calibration_publisher{fusion, publisher, 16,
+                                                                   "calibration"};
 inline constexpr RingSpec<MapMatch> mapmatch_publisher{mapmatch, publisher, 64};
 inline constexpr RingSpec<MapDoubt> doubt_publisher{mapmatch, publisher, 16, "doubts"};
 inline constexpr RingSpec<MapFeedback> feedback_publisher{.from = mapmatch,
@@ -164,8 +172,8 @@ inline constexpr auto all = std::tie(
     camera_publisher, velodyne_publisher, imu_publisher, gnss_publisher, ppp_fix_publisher,
     wheel_publisher, reference_publisher, stereo_publisher, visual_log_publisher, lidar_publisher,
     lidar_log_publisher, lidar_odometry_publisher, stereo_odometry_publisher, odometry_publisher,
-    ppp_publisher, fusion_publisher, image_states, mapmatch_publisher, doubt_publisher,
-    feedback_publisher, preview_publisher, health_publisher);
+    ppp_publisher, fusion_publisher, image_states, calibration_publisher, mapmatch_publisher,
+    doubt_publisher, feedback_publisher, preview_publisher, health_publisher);
 }  // namespace rings
 
 // What a thread gives to another on request: the newest value, without blocking.

@@ -97,7 +97,6 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
     report.health.refusals.insert(report.health.refusals.end(), refused.begin(), refused.end());
   }
   report.deadlines = monitor.deadlines(stamp);
-  report.calibration = fusion->filter_report().calibration;
   report.place = fusion->filter_report().status.place;
   report.here = fusion->filter_report().here;
   look_at_imu_delay(report.health);

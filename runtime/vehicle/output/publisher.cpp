@@ -13,10 +13,10 @@
 namespace maploop::vehicle {
 namespace {
 
-SelfCalibration message_of(const fusion::SelfCalibrations& estimated, Time stamp) {
-  SelfCalibration message{stamp, {}};
-  if (estimated.front().sigma == 0.0) return message;
-  for (const fusion::CalibratedProperty& p : estimated) {
+SelfCalibration message_of(const CalibrationReport& report) {
+  SelfCalibration message{report.stamp, {}};
+  if (report.properties.front().sigma == 0.0) return message;
+  for (const fusion::CalibratedProperty& p : report.properties) {
     message.properties.push_back({std::string(p.name), std::string(p.unit), p.value, p.sigma,
                                   p.sigma_at_start, p.observed()});
   }
@@ -71,6 +71,7 @@ Publisher::Publisher(const VehicleCalibration& calibration, Rings& rings,
   if (auto* states = rings.consumer(rings::image_states)) {
     intake_.add(*states, [this](const FusedState& state) { observer_.image_state(state); });
   }
+  forward<channels::self_calibration>(rings::calibration_publisher, observer_.calibration);
   forward<channels::map_match>(rings::mapmatch_publisher, observer_.map_match);
   forward<channels::map_doubt>(rings::doubt_publisher);
   forward<channels::map_feedback>(rings::feedback_publisher, observer_.map_feedback);
@@ -88,6 +89,8 @@ void Publisher::forward(const RingSpec<T>& spec, const std::function<void(const 
       note_flow(sample);
     if constexpr (std::is_same_v<T, MapMatch>) {
       send(channel, sample.available, to_lcm(sample, in_words_(sample)));
+    } else if constexpr (std::is_same_v<T, CalibrationReport>) {
+      send(channel, sample.available, to_lcm(message_of(sample)));
     } else {
       send(channel, sample.available, to_lcm(sample));
     }
@@ -138,10 +141,7 @@ void Publisher::send_reports() {
     const runtime::TraceSpan span(trace_, trace_name<channels::health>);
     send(channels::health, report->available, to_lcm(report->health));
     send(channels::deadlines, report->available, to_lcm(report->deadlines));
-    send(channels::self_calibration, report->available,
-         to_lcm(message_of(report->calibration, report->stamp)));
     observer_.health(report->health);
-    observer_.calibration(report->stamp, report->calibration);
     observer_.place(report->place, report->here);
     reports_->pop();
   }

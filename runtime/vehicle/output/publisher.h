@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "estimators/fusion/last_place.h"
-#include "estimators/fusion/self_calibration.h"
 #include "msgs/calibration.h"
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
@@ -45,9 +44,7 @@ struct Observer {
   std::function<void(const MapMatch&)> map_match = [](const MapMatch&) {};
   std::function<void(const MapFeedback&)> map_feedback = [](const MapFeedback&) {};
   std::function<void(const Health&)> health = [](const Health&) {};
-  // At data time `at`.
-  std::function<void(Time at, const fusion::SelfCalibrations&)> calibration =
-      [](Time, const fusion::SelfCalibrations&) {};
+  std::function<void(const CalibrationReport&)> calibration = [](const CalibrationReport&) {};
   // What became of the last place, and where the vehicle is for the next run.
   std::function<void(fusion::PlaceUse, const std::optional<fusion::LastPlace>&)> place =
       [](fusion::PlaceUse, const std::optional<fusion::LastPlace>&) {};

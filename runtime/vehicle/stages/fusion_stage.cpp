@@ -60,6 +60,7 @@ FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter,
       states_(outputs(rings::fusion_publisher, rings::fusion_ppp)),
       states_to_match_(outputs(rings::fusion_mapmatch)),
       image_states_(outputs(rings::image_states)),
+      calibrations_(outputs(rings::calibration_publisher)),
       odometry_budget_(odometry_budget),
       imu_use_(stages::fusion.name, "inertial samples", Watchdog::patience(stages::imu)),
       gnss_use_(stages::fusion.name, "GNSS fixes", Watchdog::patience(stages::gnss)),
@@ -236,6 +237,8 @@ void FusionStage::judge_fix(Time available) {
 void FusionStage::send(const FusedState& state, const std::stop_token& stop) {
   states_.push(state, stop);
   states_to_match_.push(state, stop);
+  if (state.sequence % CalibrationReport::every == 0)
+    calibrations_.push({Sample(state), filter_.calibration()}, stop);
 }
 
 // After the tick, in the time that is left until the next one.

@@ -84,6 +84,7 @@ class FusionStage final : public GraphStage {
   Outputs<FusedState> states_;
   Outputs<NavState> states_to_match_;
   Outputs<FusedState> image_states_;
+  Outputs<CalibrationReport> calibrations_;
   Duration odometry_budget_;
   runtime::Intake intake_;
   bool feedback_ = false;  // the map feeds back

@@ -152,7 +152,7 @@ TEST_F(FirstSeconds, ALogTakesSnapshotsFaultsAndMomentsAsADriveDoes) {
   const std::string log = lockstep().log();
   const json whole = replay(log, {"--lockstep", "--snapshot", "3:" + file("s")});
   const auto expected = hashes(whole["snapshot"]);
-  EXPECT_EQ(expected.size(), 9u);
+  EXPECT_EQ(expected.size(), 10u);
   EXPECT_EQ(hashes(replay(log, {"--lockstep", "--resume", file("s")})), expected);
   const json lost = replay(log, {"--lockstep", "--fault", "lost@imu:2:1"});
   EXPECT_NE(hashes(lost)["NAV_STATE"], hashes(whole)["NAV_STATE"]);

@@ -73,7 +73,7 @@ TEST_F(WholeDrive, StaysAsAccurateAsItWas) {
 // The real-time run is without the log and the snapshot of the other one, which change no bit.
 TEST_F(WholeDrive, RealTimeHasTheBitsOfLockstepAndLosesNothing) {
   const json& expected = lockstep().result;
-  EXPECT_EQ(hashes(expected).size(), 9u) << "raw channels go to the log alone";
+  EXPECT_EQ(hashes(expected).size(), 10u) << "raw channels go to the log alone";
   const json real_time = replay(drive(), {"--speed", "1"});
   EXPECT_EQ(hashes(real_time), hashes(expected));
   for (const json& result : {expected, real_time}) EXPECT_EQ(result["replay"]["lost"], 0);
@@ -167,7 +167,7 @@ TEST_F(WholeDrive, AnMcapFileOfRawSensorsGivesTheHashesOfTheDrive) {
 TEST_F(WholeDrive, AResumedRunHasTheHashesAndTheLogOfTheWholeRunFromThereOn) {
   const json& snapshot = lockstep().result["snapshot"];
   const auto expected = hashes(snapshot);
-  EXPECT_EQ(expected.size(), 9u);
+  EXPECT_EQ(expected.size(), 10u);
   EXPECT_GT(snapshot["channels"]["VO"]["count"], 60);
   const std::string resume = lockstep().in("snapshot");
   EXPECT_EQ(hashes(replay(drive(),

@@ -190,7 +190,8 @@ TEST(Report, ARunWithoutAnythingHasAPageToo) {
 TEST(Report, CalibrationShowsTheBestObservedPropertyFirst) {
   tools::RunPass pass;
   for (int second = 0; second < 3; ++second) {
-    tools::CalibrationMoment moment{at(second), {}};
+    vehicle::CalibrationReport moment;
+    moment.stamp = at(second);
     moment.properties[0] = {"axle", "rear axle behind the origin", "m", 0.8, 0.95, 1.0};
     moment.properties[1] = {"scale", "scale of wheels", "%", 1.0, 0.4 - 0.1 * second, 1.0};
     pass.calibrations.push_back(moment);
@@ -210,7 +211,7 @@ TEST(Report, CalibrationShowsTheBestObservedPropertyFirst) {
 
 TEST(Report, FilterThatHasNotStartedHasNoCalibration) {
   tools::RunPass pass;
-  pass.calibrations.push_back({at(0.0), {}});
+  pass.calibrations.emplace_back();
   EXPECT_FALSE(has(page_of(tools::ReplayResult{}, pass, {}), "Calibration on the drive"));
 }
 
