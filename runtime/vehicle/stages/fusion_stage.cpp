@@ -207,7 +207,8 @@ bool FusionStage::doubted(Time t) const {
     const bool there = t - filter_.aided().contradictions().of(witness).stamp <= doubt_memory;
     return there && doubt_of(witness, components) != nullptr;
   };
-  return !others_agree_ || lately(fix_position, 2) || lately(fix_velocity, 2) ||
+  // Where doubted fixes have moved the position, it stays there until good ones come.
+  return !others_agree_ || doubt_of(fix_position, 2) != nullptr || lately(fix_velocity, 2) ||
          lately(wheel_speed, 1);
 }
 

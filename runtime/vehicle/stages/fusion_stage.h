@@ -70,7 +70,7 @@ class FusionStage final : public GraphStage {
   void judge_fix(Time available);
   void judge_motion(Time available);
   const char* doubt_of(fusion::Witness witness, int components) const;
-  // Whether any aid that was there lately contradicts the others.
+  // Whether the last fixes, or any other aid that was there lately, contradict the others.
   bool doubted(Time t) const;
   void send(const FusedState& state, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
