@@ -74,6 +74,7 @@ TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
   Rings rings(rings::all, {"imu", "gnss", "odometry", "fusion", "publisher"}, {});
   runtime::Edge<FusedState>& nav_states = *rings.consumer(rings::fusion_publisher);
   runtime::Edge<FusedState>& image_states = *rings.consumer(rings::image_states);
+  runtime::Edge<CalibrationReport>& calibrations = *rings.consumer(rings::calibration_publisher);
   FusionStage stage(rings,
                     fusion::GuardedFilter(fusion::ReducedImuFilter(fusion::FusionParameters{})),
                     fusion::ProtectionMonitor(), stages::stereo.budget);
@@ -91,7 +92,7 @@ TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
     stage.finish();
   });
   std::thread feeder([&] { feed(rings); });
-  std::uint64_t states = 0, images = 0;
+  std::uint64_t states = 0, images = 0, calibrated = 0;
   NavStatus status{};
   while (nav_states.promised() != Time::max() || nav_states.front() != nullptr) {
     while (const NavState* state = nav_states.front()) {
@@ -100,6 +101,7 @@ TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
       nav_states.pop();
     }
     for (; image_states.front() != nullptr; image_states.pop()) ++images;
+    for (; calibrations.front() != nullptr; calibrations.pop()) ++calibrated;
     std::this_thread::sleep_for(milliseconds(1));
   }
   feeder.join();
@@ -108,6 +110,7 @@ TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
   EXPECT_EQ(allocated, 0);
   EXPECT_GE(states, static_cast<std::uint64_t>(seconds * 100));
   EXPECT_GT(images, 0u);
+  EXPECT_EQ(calibrated, (states + CalibrationReport::every - 1) / CalibrationReport::every);
   EXPECT_EQ(status, NavStatus::aided);
   EXPECT_EQ(stage.filter_report().status.refused_for(fusion::Reason::odometry_not_ok), 20u);
   EXPECT_GT(trace.recorded(), 5 * states / 2);
