@@ -15,67 +15,25 @@
 #include "mapmatch/tiled_map_builder.h"
 #include "msgs/archive.h"
 #include "msgs/frames.h"
+#include "tests/mapmatch/osm_file.h"
 #include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::mapmatch::tiled_map_test {
 namespace {
 
+using maploop::testing::at_place;
 using maploop::testing::error_of;
+using maploop::testing::OsmFile;
 using maploop::testing::real_data;
 using maploop::testing::TemporaryFolder;
+using maploop::testing::three_tiles;
+using maploop::testing::ways_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 std::filesystem::path karlsruhe() {
   return real_data() / "maps" / "karlsruhe_2012-04.osm.pbf";
-}
-
-// An OpenStreetMap file of nodes, each at "LAT LON", and of residential roads through them.
-class OsmFile {
- public:
-  explicit OsmFile(const std::filesystem::path& folder) : file_(folder / "small.osm") {}
-
-  OsmFile& node(std::int64_t id, double latitude, double longitude) {
-    nodes_ += "<node id=\"" + std::to_string(id) + "\" lat=\"" + std::to_string(latitude) +
-              "\" lon=\"" + std::to_string(longitude) + "\"/>";
-    return *this;
-  }
-  OsmFile& road(std::int64_t id, const std::vector<std::int64_t>& nodes) {
-    ways_ += "<way id=\"" + std::to_string(id) + "\">";
-    for (const std::int64_t n : nodes) ways_ += "<nd ref=\"" + std::to_string(n) + "\"/>";
-    ways_ += "<tag k=\"highway\" v=\"residential\"/></way>";
-    return *this;
-  }
-  OsmFile& ban(std::int64_t from, std::int64_t via, std::int64_t to) {
-    const auto member = [](const char* type, std::int64_t ref, const char* role) {
-      return std::string("<member type=\"") + type + "\" ref=\"" + std::to_string(ref) +
-             "\" role=\"" + role + "\"/>";
-    };
-    relations_ += "<relation id=\"1\">" + member("way", from, "from") + member("node", via, "via") +
-                  member("way", to, "to") +
-                  "<tag k=\"type\" v=\"restriction\"/>"
-                  "<tag k=\"restriction\" v=\"no_left_turn\"/></relation>";
-    return *this;
-  }
-  const std::filesystem::path& write() const {
-    std::ofstream(file_) << "<osm version=\"0.6\">" << nodes_ << ways_ << relations_ << "</osm>";
-    return file_;
-  }
-
- private:
-  std::filesystem::path file_;
-  std::string nodes_, ways_, relations_;
-};
-
-std::vector<std::int64_t> ways_of(const MapExtract& map) {
-  std::vector<std::int64_t> ways;
-  for (const MapWay& way : map.ways) ways.push_back(way.road.way_id);
-  return ways;
-}
-
-GeographicBox at(double latitude, double longitude) {
-  return {longitude, latitude, longitude, latitude};
 }
 
 TEST(TiledMap, AllTilesTogetherAreTheWholeMap) {
@@ -100,84 +58,18 @@ TEST(TiledMap, AllTilesTogetherAreTheWholeMap) {
 TEST(TiledMap, ABoxHasTheRoadsOfItsTilesWhole) {
   TemporaryFolder folder;
   const auto tiles = folder.path() / "a.tiles";
-  build_tiled_map(OsmFile(folder.path())
-                      .node(1, 49.01, 8.41)
-                      .node(2, 49.02, 8.42)
-                      .node(3, 49.02, 8.47)
-                      .node(4, 49.11, 8.41)
-                      .node(5, 49.12, 8.41)
-                      .road(10, {1, 2})
-                      .road(11, {2, 3})
-                      .road(12, {4, 5})
-                      .ban(10, 2, 11)
-                      .ban(12, 4, 12)
-                      .write(),
-                  tiles);
+  build_tiled_map(three_tiles(folder.path()).road(11, {2, 3}).write(), tiles);
   const TiledMap map(tiles);
-  EXPECT_THAT(ways_of(map.read(at(49.01, 8.41))), ElementsAre(10, 11));
-  EXPECT_EQ(map.read(at(49.01, 8.41)).nodes.size(), 3u) << "11 is whole";
-  EXPECT_EQ(map.read(at(49.01, 8.41)).restrictions.size(), 1u);
-  EXPECT_THAT(ways_of(map.read(at(49.01, 8.48))), ElementsAre(11));
+  EXPECT_THAT(ways_of(map.read(at_place(49.01, 8.41))), ElementsAre(10, 11));
+  EXPECT_EQ(map.read(at_place(49.01, 8.41)).nodes.size(), 3u) << "11 is whole";
+  EXPECT_EQ(map.read(at_place(49.01, 8.41)).restrictions.size(), 1u);
+  EXPECT_THAT(ways_of(map.read(at_place(49.01, 8.48))), ElementsAre(11));
   EXPECT_THAT(ways_of(map.read({8.41, 49.01, 8.41, 49.11})), ElementsAre(10, 11, 12));
-  EXPECT_THAT(ways_of(map.read(at(49.5, 8.41))), ElementsAre());
+  EXPECT_THAT(ways_of(map.read(at_place(49.5, 8.41))), ElementsAre());
   EXPECT_NEAR(map.area().south, 49.0, 1e-9);
   EXPECT_NEAR(map.area().north, 49.15, 1e-9);
   EXPECT_THAT(error_of([&] { (void)map.read(GeographicBox{}, 4); }),
               HasSubstr("more than 4 nodes"));
-}
-
-TEST(TiledMap, ACorrectionIsGivenTheRoadsOfItsTilesAndNoOthers) {
-  TemporaryFolder folder;
-  const auto tiles = folder.path() / "a.tiles";
-  MapExtract given;
-  const auto correct = [&](MapExtract& map) {
-    given = map;
-    map.restrictions.clear();
-    map.nodes.push_back({99, 49.02, 8.43});
-    MapWay added;
-    added.road.way_id = 77;
-    added.nodes = {2, 99};
-    map.ways.push_back(added);
-    map.ways[0].nodes.push_back(99);
-  };
-  const BuiltTiles built =
-      build_tiled_map(OsmFile(folder.path())
-                          .node(1, 49.01, 8.41)
-                          .node(2, 49.02, 8.42)
-                          .node(3, 49.02, 8.47)
-                          .node(4, 49.11, 8.41)
-                          .node(5, 49.12, 8.41)
-                          .road(10, {1, 2})
-                          .road(11, {2, 3, 404})
-                          .road(12, {4, 5})
-                          .ban(10, 2, 11)
-                          .ban(12, 4, 12)
-                          .write(),
-                      tiles, {}, [](const std::string&) {}, {{tile_at(49.01, 8.41)}, correct});
-  EXPECT_THAT(ways_of(given), ElementsAre(10, 11));
-  EXPECT_EQ(given.restrictions.size(), 1u);
-  EXPECT_EQ(built.table.ways, 4u);
-  EXPECT_EQ(built.table.restrictions, 1u);
-  EXPECT_EQ(built.missing_nodes, 1u);
-  const TiledMap map(tiles);
-  const MapExtract whole = map.read();
-  EXPECT_THAT(ways_of(whole), ElementsAre(10, 11, 12, 77));
-  EXPECT_THAT(whole.ways[0].nodes, ElementsAre(1, 2, 99));
-  ASSERT_EQ(whole.restrictions.size(), 1u);
-  EXPECT_EQ(whole.restrictions[0].via_node, 4);
-  ASSERT_EQ(whole.nodes.size(), 6u);
-  EXPECT_NEAR(whole.nodes.back().longitude, 8.43, 1e-9);
-  EXPECT_THAT(ways_of(map.read(at(49.01, 8.48))), ElementsAre(11)) << "it is in both of its tiles";
-}
-
-TEST(TiledMap, ACorrectionWithoutAnyRoadIsAskedAllTheSame) {
-  TemporaryFolder folder;
-  int asked = 0;
-  build_tiled_map(
-      OsmFile(folder.path()).node(1, 49.01, 8.41).node(2, 49.01, 8.42).road(10, {1, 2}).write(),
-      folder.path() / "a.tiles", {}, [](const std::string&) {},
-      {{tile_at(0.0, 0.0)}, [&](MapExtract& map) { asked += map.ways.empty() ? 1 : 100; }});
-  EXPECT_EQ(asked, 1);
 }
 
 TEST(TiledMap, ASegmentIsInTheTilesThatItCrosses) {
@@ -186,7 +78,7 @@ TEST(TiledMap, ASegmentIsInTheTilesThatItCrosses) {
   build_tiled_map(
       OsmFile(folder.path()).node(1, 49.01, 8.41).node(2, 49.01, 8.61).road(10, {1, 2}).write(),
       tiles);
-  EXPECT_THAT(ways_of(TiledMap(tiles).read(at(49.02, 8.52))), ElementsAre(10));
+  EXPECT_THAT(ways_of(TiledMap(tiles).read(at_place(49.02, 8.52))), ElementsAre(10));
   EXPECT_EQ(TiledMap(tiles).table().tiles.size(), 5u);
 }
 
@@ -273,8 +165,8 @@ TEST(TiledMap, ADamagedTileIsNamedAndTheOthersAreRead) {
     file.put('x');
   }
   const TiledMap map(tiles);
-  EXPECT_THAT(ways_of(map.read(at(49.01, 8.41))), ElementsAre(10));
-  const std::string error = error_of([&] { (void)map.read(at(49.11, 8.41)); });
+  EXPECT_THAT(ways_of(map.read(at_place(49.01, 8.41))), ElementsAre(10));
+  const std::string error = error_of([&] { (void)map.read(at_place(49.11, 8.41)); });
   EXPECT_THAT(error, HasSubstr("a.tiles: the tile at 49.1"));
   EXPECT_THAT(error, HasSubstr("it is damaged: its checksum does not fit"));
 }

@@ -43,7 +43,7 @@ struct RuntimeReport : Sample {
   std::optional<fusion::LastPlace> here;
 };
 
-// What the filter has estimated of the vehicle and its sensors by its stamp.
+// It holds what the filter had estimated of the vehicle and its sensors at the stamp.
 struct CalibrationReport : Sample {
   static constexpr std::uint64_t every = 100;  // of so many states, one has it
 
