@@ -56,10 +56,8 @@ class CorrectedRoads {
 
  private:
   static TiledNode node(const MapExtract& map, std::int64_t id) {
-    const auto found =
-        std::lower_bound(map.nodes.begin(), map.nodes.end(), id,
-                         [](const MapNode& n, std::int64_t wanted) { return n.id < wanted; });
-    if (found == map.nodes.end() || found->id != id) return {id};
+    const MapNode* found = map.find(id);
+    if (found == nullptr) return {id};
     const auto units = [](double degrees) {
       return static_cast<std::int32_t>(std::lround(degrees * TiledNode::per_degree));
     };

@@ -92,11 +92,8 @@ class Builder {
   static double distortion(double metres) { return 0.5 * std::pow(metres / earth_radius, 2); }
 
   std::uint32_t find(std::int64_t id) const {
-    const auto found = std::lower_bound(map_.nodes.begin(), map_.nodes.end(), id,
-                                        [](const MapNode& n, std::int64_t i) { return n.id < i; });
-    return found != map_.nodes.end() && found->id == id
-               ? static_cast<std::uint32_t>(found - map_.nodes.begin())
-               : none;
+    const MapNode* found = map_.find(id);
+    return found != nullptr ? static_cast<std::uint32_t>(found - map_.nodes.data()) : none;
   }
 
   void make_segments() {

@@ -1,6 +1,8 @@
 // The links of a road network are built here from the ways of a map.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +33,12 @@ struct MapExtract {
   std::vector<MapWay> ways;
   std::vector<MapRestriction> restrictions;
   std::size_t restrictions_over_ways = 0;  // number left out because their "via" is a way
+
+  // Returns the node with this id, or nullptr if the map lacks it.
+  const MapNode* find(std::int64_t id) const {
+    const auto found = std::ranges::lower_bound(nodes, id, {}, &MapNode::id);
+    return found != nodes.end() && found->id == id ? &*found : nullptr;
+  }
 };
 
 // Builds a network. A way is cut at a missing node (clipped map); the data's warnings count what is

@@ -77,12 +77,6 @@ class Corrector {
     return next_node_++;
   }
 
-  const MapNode* find(std::int64_t id) const {
-    const auto node = std::lower_bound(map_.nodes.begin(), map_.nodes.end(), id,
-                                       [](const MapNode& n, std::int64_t i) { return n.id < i; });
-    return node == map_.nodes.end() || node->id != id ? nullptr : &*node;
-  }
-
   static Eigen::Vector2d place_of(const MapNode& node, const LocalFrame& frame) {
     return frame.to_enu({radians(node.latitude), radians(node.longitude), 0.0}).head<2>();
   }
@@ -104,8 +98,8 @@ class Corrector {
     };
     for (const MapWay& way : map_.ways) {
       for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
-        const MapNode* a = find(way.nodes[i]);
-        const MapNode* b = find(way.nodes[i + 1]);
+        const MapNode* a = map_.find(way.nodes[i]);
+        const MapNode* b = map_.find(way.nodes[i + 1]);
         if (!a || !b || outside(latitude, a->latitude, b->latitude) ||
             outside(longitude, a->longitude, b->longitude))
           continue;
@@ -125,8 +119,8 @@ class Corrector {
     Eigen::Vector2d nearest = Eigen::Vector2d::Zero();
     for (MapWay& w : map_.ways) {
       for (std::size_t i = 0; w.road.way_id == way_id && i + 1 < w.nodes.size(); ++i) {
-        const MapNode* a = find(w.nodes[i]);
-        const MapNode* b = find(w.nodes[i + 1]);
+        const MapNode* a = map_.find(w.nodes[i]);
+        const MapNode* b = map_.find(w.nodes[i + 1]);
         if (!a || !b) continue;
         const Eigen::Vector2d p = foot(place_of(*a, frame), place_of(*b, frame));
         if (p.norm() >= least) continue;
@@ -138,7 +132,7 @@ class Corrector {
     }
     if (way == nullptr) return {};
     for (const std::size_t i : {segment, segment + 1}) {
-      if ((place_of(*find(way->nodes[i]), frame) - nearest).norm() < same_node)
+      if ((place_of(*map_.find(way->nodes[i]), frame) - nearest).norm() < same_node)
         return way->nodes[i];
     }
     const std::int64_t node = add_node(frame.to_geodetic({nearest.x(), nearest.y(), 0.0}));
