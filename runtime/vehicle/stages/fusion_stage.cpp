@@ -1,6 +1,5 @@
 #include "runtime/vehicle/stages/fusion_stage.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,14 +17,6 @@ constexpr Duration furthest_behind = 5 * stages::fusion.period;
 
 // Memory taken beforehand; more, such as after a delay of the camera, is no error.
 constexpr std::size_t most_images_a_tick = 8;
-
-// The statistics that are judged have a memory of their own.
-constexpr Duration doubt_interval = std::chrono::seconds(1);
-
-// A sensor that has gone is not doubted for longer.
-constexpr Duration doubt_memory = std::chrono::seconds(10);
-
-constexpr const char* scattering = "they scatter more than they say of themselves";
 
 // What does not speak against the sensor: the configuration has no use for the measurement, now or
 // at all, or it has it already.
@@ -66,10 +57,7 @@ FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter,
       gnss_use_(stages::fusion.name, "GNSS fixes", Watchdog::patience(stages::gnss)),
       wheel_use_(stages::fusion.name, "wheel speeds", Watchdog::patience(stages::imu)),
       odometry_use_(stages::fusion.name, "motions", Watchdog::patience(stages::odometry)),
-      imu_doubt_(stages::fusion.name, "inertial samples", doubt_interval, doubts),
-      gnss_doubt_(stages::fusion.name, "GNSS fixes", doubt_interval, doubts),
-      wheel_doubt_(stages::fusion.name, "wheel speeds", doubt_interval, doubts),
-      odometry_doubt_(stages::fusion.name, "motions", doubt_interval, doubts),
+      doubts_(filter_.aided()),
       camera_path_(paths::camera.name, paths::camera.deadline),
       imu_path_(paths::imu.name, paths::imu.deadline) {
   sent_states_.reserve(1);
@@ -86,7 +74,7 @@ FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter,
   GraphStage::take(intake_, rings::wheel_fusion, [this](const WheelSpeed& sample) {
     const runtime::TraceSpan span(trace(), "wheel");
     note(wheel_use_, sample, filter_.add(sample));
-    wheel_doubt_.note(sample.available, doubt_of(fusion::Witness::wheel_speed, 1));
+    doubts_.judge_wheel(sample.available);
   });
   for (const auto* motions :
        {&rings::lidar_fusion, &rings::stereo_fusion, &rings::odometry_fusion}) {
@@ -149,7 +137,7 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   stamp(state, k, k + spec().budget, ticks_++);
   if (known && state.sequence % NavProtection::every == 0) {
     state.protection = protection_.levels(state, filter_);
-    state.protection->doubted = doubted(k);
+    state.protection->doubted = doubts_.any(k);
   }
   const MonotonicTime computed = runtime::monotonic_now();
   send(state, stop);
@@ -176,63 +164,20 @@ void FusionStage::take(const GnssFix& fix) {
   note(gnss_use_, fix, outcome);
   if (!outcome.refused() || outcome.reason == fusion::Reason::position_gate)
     protection_.note(fix, filter_.aided());
-  judge_fix(fix.available);
+  doubts_.judge_fix(fix.available);
 }
 
 void FusionStage::take(const RelativeMotion& motion) {
   runtime::TraceSpan span(trace(), "odometry");
   span.step_flow(flow_of(motion));
   note(odometry_use_, motion, filter_.add(motion));
-  judge_motion(motion.available);
+  doubts_.judge_motion(motion.available);
   if (motion.status == OdometryStatus::ok) odometry_taken_ = motion;
   std::optional<FusedState> state = filter_.aided().state_at(motion.stamp);
   if (!state) return;
   stamp(*state, motion.stamp, tick_ + spec().budget, images_++);
   image_states_.push(*state, stop_);
   sent_image_states_.push_back(*state);
-}
-
-// Returns what is wrong with the fixes or the wheels, or nullptr.
-const char* FusionStage::doubt_of(fusion::Witness witness, int components) const {
-  const fusion::LastingError& error = filter_.aided().contradictions().of(witness);
-  const fusion::FusionParameters& p = filter_.aided().parameters();
-  if (error.excess(components, p.doubt_scatter) > 1.0) return scattering;
-  if (error.mean() > p.doubt_gate) return "they have contradicted the rest for seconds";
-  return nullptr;
-}
-
-bool FusionStage::doubted(Time t) const {
-  using enum fusion::Witness;
-  const auto lately = [&](fusion::Witness witness, int components) {
-    const bool there = t - filter_.aided().contradictions().of(witness).stamp <= doubt_memory;
-    return there && doubt_of(witness, components) != nullptr;
-  };
-  // Where doubted fixes have moved the position, it stays there until good ones come.
-  return !others_agree_ || doubt_of(fix_position, 2) != nullptr || lately(fix_velocity, 2) ||
-         lately(wheel_speed, 1);
-}
-
-// An odometry that is wrong errs by much, so its motions scatter; where they err by a little, all
-// in one direction, it is the inertial unit.
-void FusionStage::judge_motion(Time available) {
-  using enum fusion::Witness;
-  const fusion::FusionParameters& p = filter_.aided().parameters();
-  const fusion::LastingError& length = filter_.aided().contradictions().of(motion_length);
-  const fusion::LastingError& turn = filter_.aided().contradictions().of(motion_turn);
-  const bool scatter = std::max(length.scatter(), turn.scatter()) > p.doubt_scatter;
-  const bool apart = std::max(length.mean(), turn.mean()) > p.doubt_motion_gate;
-  odometry_doubt_.note(available, scatter ? scattering : nullptr);
-  imu_doubt_.note(available,
-                  apart && !scatter ? "they have contradicted odometry for seconds" : nullptr);
-  others_agree_ = !scatter && !apart;
-}
-
-// Where odometry and the inertial unit contradict each other, a fix is no third witness.
-void FusionStage::judge_fix(Time available) {
-  using enum fusion::Witness;
-  const char* position = doubt_of(fix_position, 2);
-  const char* doubt = position != nullptr ? position : doubt_of(fix_velocity, 2);
-  gnss_doubt_.note(available, others_agree_ ? doubt : nullptr);
 }
 
 void FusionStage::send(const FusedState& state, const std::stop_token& stop) {
@@ -251,8 +196,14 @@ void FusionStage::save_until(Time t, const std::stop_token& stop) {
 // resumes sends it.
 template <class Archive>
 void FusionStage::archive(Archive& ar) {
-  ar.section(spec().name, 3);
-  ar(filter_, protection_, ticks_, images_, sent_states_, sent_image_states_);
+  ar.section(spec().name, 4);
+  ar(filter_, protection_, doubts_, ticks_, images_, sent_states_, sent_image_states_);
+}
+
+std::vector<UseWatch*> FusionStage::uses() {
+  std::vector<UseWatch*> all{&imu_use_, &gnss_use_, &wheel_use_, &odometry_use_};
+  for (UseWatch* watch : doubts_.watches()) all.push_back(watch);
+  return all;
 }
 
 std::vector<RefusalCount> FusionStage::refusals() {

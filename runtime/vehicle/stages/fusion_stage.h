@@ -16,6 +16,7 @@
 #include "runtime/core/periodic.h"
 #include "runtime/vehicle/graph/graph_stage.h"
 #include "runtime/vehicle/health/meter.h"
+#include "runtime/vehicle/stages/aid_doubts.h"
 
 namespace maploop::vehicle {
 
@@ -33,10 +34,7 @@ class FusionStage final : public GraphStage {
     return filter_.largest_archive(feedback_) + protection_.largest_archive() +
            sent_image_states_.capacity() * sizeof(FusedState) + 4096;
   }
-  std::vector<UseWatch*> uses() override {
-    return {&imu_use_,   &gnss_use_,   &wheel_use_,   &odometry_use_,
-            &imu_doubt_, &gnss_doubt_, &wheel_doubt_, &odometry_doubt_};
-  }
+  std::vector<UseWatch*> uses() override;
   std::vector<RefusalCount> refusals() override;
 
   // Before run(); what is remembered before a start.
@@ -66,12 +64,6 @@ class FusionStage final : public GraphStage {
   bool tick(const runtime::Tick& tick, runtime::DataClock& clock, const std::stop_token& stop);
   void take(const GnssFix& fix);
   void take(const RelativeMotion& motion);
-  // Look for lasting contradictions after a fix or a motion has been added.
-  void judge_fix(Time available);
-  void judge_motion(Time available);
-  const char* doubt_of(fusion::Witness witness, int components) const;
-  // Whether the last fixes, or any other aid that was there lately, contradict the others.
-  bool doubted(Time t) const;
   void send(const FusedState& state, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
   void load(ArchiveReader& ar) override { archive(ar); }
@@ -102,11 +94,7 @@ class FusionStage final : public GraphStage {
   UseWatch gnss_use_;
   UseWatch wheel_use_;
   UseWatch odometry_use_;
-  UseWatch imu_doubt_;
-  UseWatch gnss_doubt_;
-  UseWatch wheel_doubt_;
-  UseWatch odometry_doubt_;
-  bool others_agree_ = true;  // odometry and the inertial unit
+  AidDoubts doubts_;
   Meter camera_path_;
   Meter imu_path_;
   runtime::LatestValue<FilterReport> filter_reports_;
