@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "msgs/lcm/channel_names.h"
 #include "msgs/lcm/log/log_header.h"
 #include "tools/log/log_tools.h"
 #include "tools/log/log_writer.h"
@@ -30,16 +31,24 @@ class Pieces {
   Pieces(const SplitParameters& parameters, const path& log, const schema::Schema& schema)
       : parameters_(parameters), log_(log), schema_(schema) {}
 
+  // What is known before a piece begins, and written at its beginning: without the calibration it
+  // could not be replayed.
+  void remember(const LogEvent& event) {
+    if (event.channel != channel_names::calibration) return;
+    calibration_.assign(event.data.begin(), event.data.end());
+  }
+
   void write(const LogEvent& event) {
     if (!writer_) {
       first_us_ = event.time_us;
-      open();
+      open(event);
     } else if (parameters_.every && begins_piece(event)) {
       writer_->close();
-      open();
+      open(event);
     }
     writer_->write(event);
     ++events_;
+    remember(event);
   }
 
   // Returns the names of the files.
@@ -49,6 +58,8 @@ class Pieces {
   }
 
   std::uint64_t events() const { return events_; }
+  // Returns whether a file begins with a calibration from before it.
+  bool calibrated() const { return calibrated_; }
 
  private:
   // Whether the event belongs to the next piece.
@@ -66,7 +77,7 @@ class Pieces {
     return true;
   }
 
-  void open() {
+  void open(const LogEvent& first) {
     if (files_.size() == most_pieces) {
       throw std::runtime_error("more than " + std::to_string(most_pieces) +
                                " pieces: choose a larger --every");
@@ -75,6 +86,12 @@ class Pieces {
                                        : parameters_.output);
     refuse_same_file(log_, files_.back());
     writer_ = std::make_unique<LogWriter>(files_.back(), schema_);
+    if (calibration_.empty() || first.channel == channel_names::calibration) return;
+    LogEvent known = first;
+    known.channel = channel_names::calibration;
+    known.data = calibration_;
+    writer_->write(known);
+    calibrated_ = true;
   }
 
   const SplitParameters& parameters_;
@@ -82,6 +99,8 @@ class Pieces {
   const schema::Schema& schema_;
   std::unique_ptr<LogWriter> writer_;
   std::vector<path> files_;
+  std::vector<std::uint8_t> calibration_;  // the last message of it; empty: none
+  bool calibrated_ = false;
   std::uint64_t events_ = 0;
   std::int64_t first_us_ = 0;
   double piece_ = 0.0;
@@ -113,10 +132,14 @@ LogSummary split(const path& log, const schema::Schema& schema, const SplitParam
   std::optional<std::int64_t> first_us;
   const LogSummary read = read_log(log, schema, [&](const LogEvent& event) {
     if (!first_us) first_us = event.time_us;
+    if (parameters.channels && !parameters.channels(event.channel)) return;
     const double since = seconds_between(*first_us, event.time_us);
-    if (parameters.start_s && since < *parameters.start_s) return;
     if (parameters.end_s && since >= *parameters.end_s) return;
-    if (!parameters.channels || parameters.channels(event.channel)) pieces.write(event);
+    if (parameters.start_s && since < *parameters.start_s) {
+      pieces.remember(event);
+    } else {
+      pieces.write(event);
+    }
   });
   if (pieces.events() == 0) {
     throw std::runtime_error("none of the " + std::to_string(read.events) + " events of '" +
@@ -129,6 +152,7 @@ LogSummary split(const path& log, const schema::Schema& schema, const SplitParam
   if (files.size() > 1) {
     fmt::print(out, " and {} more, up to {}", files.size() - 1, files.back().string());
   }
+  if (pieces.calibrated()) out << ", with the calibration that came before";
   out << '\n';
   return read;
 }

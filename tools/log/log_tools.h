@@ -75,7 +75,9 @@ struct SplitParameters {
 
 // Writes a part of a log, or a log in pieces, without its damage. A piece contains at least one
 // event; times without events have no piece. An event that is slightly earlier than its predecessor
-// stays in the same piece. Throws if no event is selected, or for more than 10,000 pieces.
+// stays in the same piece. The last calibration before a part or a piece, which is needed to replay
+// it, is written at its beginning, unless its channel is not selected. Throws if no event is
+// selected, or for more than 10,000 pieces.
 LogSummary split(const path& log, const schema::Schema& schema, const SplitParameters& parameters,
                  std::ostream& out);
 

@@ -36,6 +36,31 @@ TEST_F(LogPieces, SplitByChannelMatchesWholeNames) {
   for (const TestEvent& e : events) EXPECT_TRUE(e.channel == "X" || e.channel == "IMU");
 }
 
+TEST_F(LogPieces, EachPartBeginsWithTheCalibrationBeforeIt) {
+  const TestEvent calibration{"CALIBRATION", test_start, unknown_bytes(20, 1)};
+  auto events = drive_;
+  events.insert(events.begin(), calibration);
+  record(log_, events);
+  const auto calibrated = [&](std::size_t first, std::size_t end) {
+    std::vector<TestEvent> part(events.begin() + static_cast<std::ptrdiff_t>(first),
+                                events.begin() + static_cast<std::ptrdiff_t>(end));
+    part.insert(part.begin(), {calibration.channel, part.front().time_us, calibration.data});
+    return part;
+  };
+  split_to(out_, {.start_s = 0.05, .end_s = 0.1});
+  EXPECT_EQ(read_with_lcm(out_), calibrated(6, 11));
+  EXPECT_TRUE(says("5 of 25 events") && says("with the calibration")) << said_.str();
+
+  split_to(out_, {.start_s = 0.05, .end_s = 0.1, .channels = matching("NAV_.*|IMU")});
+  for (const TestEvent& e : read_with_lcm(out_)) EXPECT_NE(e.channel, "CALIBRATION");
+
+  split_to(out_, {.end_s = 0.05});
+  EXPECT_EQ(read_with_lcm(out_), std::vector<TestEvent>(events.begin(), events.begin() + 6));
+
+  split_to(folder_.path() / "piece.lcmlog", {.every = parse_piece_limit("0.1s")});
+  EXPECT_EQ(read_with_lcm(folder_.path() / "piece.001.lcmlog"), calibrated(11, 21));
+}
+
 TEST(ChannelFilter, MatchesWholeNames) {
   const ChannelFilter filter = matching("VO|(NAV|IMU)_?[A-Z]*");
   for (const char* name : {"VO", "NAV_STATE", "IMU"}) EXPECT_TRUE(filter(name)) << name;
