@@ -56,14 +56,15 @@ std::vector<std::string> choices() {
   return {all.begin(), all.end()};
 }
 
-// One name of an enumeration; `value` stays empty without the option.
+// One name of an enumeration, of those that are accepted; `value` stays empty without the option.
 template <NamedEnum Enum>
 CLI::Option* add_choice(CLI::App* sub, const char* flag, std::optional<Enum>& value,
-                        const char* what) {
+                        const char* what,
+                        const std::vector<std::string>& accepted = choices<Enum>()) {
   return sub
       ->add_option_function<std::string>(
           flag, [&value](const std::string& name) { value = value_named<Enum>(name); }, what)
-      ->check(CLI::IsMember(choices<Enum>()));
+      ->check(CLI::IsMember(accepted));
 }
 
 }  // namespace maploop::tools

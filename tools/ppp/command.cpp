@@ -249,7 +249,8 @@ void add_ppp(CLI::App& app, Command& command) {
       ->check(existing_file());
   add_choice(sub, "--map-mode", options->map_mode,
              "none; loose, the default where there is a map: matched, and nothing fed back; "
-             "tight: the road corrects the filter");
+             "tight: the road corrects the filter",
+             {"none", "loose", "tight"});
   add_choice(sub, "--map-fault", options->map_fault,
              "A map that is wrong, as of maploop replay; there are no labels of the roads driven");
   sub->add_option("--heights", options->heights,
