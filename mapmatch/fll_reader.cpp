@@ -9,15 +9,10 @@
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "msgs/trimmed.h"
 
 namespace maploop::mapmatch {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 std::vector<std::string> words(std::string_view text) {
   std::istringstream in{std::string(text)};

@@ -4,17 +4,12 @@
 #include <fstream>
 #include <iterator>
 
+#include "msgs/trimmed.h"
+
 namespace maploop::runtime {
 namespace {
 
 constexpr int highest_cpu = 1 << 16;  // far above any machine; limits the length of a made-up range
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank_characters = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blank_characters);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank_characters) - first + 1);
-}
 
 // Takes a CPU's number off the beginning of the text.
 std::optional<int> take_cpu(std::string_view& text) {

@@ -8,6 +8,7 @@
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "msgs/trimmed.h"
 #include "sensors/bag/mcap_format.h"
 #include "sensors/bag/mcap_reader.h"
 #include "sensors/bag/ros1_bag_format.h"
@@ -26,11 +27,8 @@ struct Metadata {
   std::string compression;
 };
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view around = " \t\r'\"";
-  const auto begin = text.find_first_not_of(around);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(around) + 1 - begin);
+std::string_view unquoted(std::string_view text) {
+  return trimmed(text, " \t\r'\"");
 }
 
 // rosbag2 writes a key or an item a line. Names of files may contain a folder that does not exist
@@ -41,14 +39,14 @@ Metadata read_metadata(const fs::path& file) {
   Metadata found;
   bool in_files = false;
   for (std::string_view left = text; !left.empty();) {
-    const std::string_view line = trimmed(left.substr(0, left.find('\n')));
+    const std::string_view line = unquoted(left.substr(0, left.find('\n')));
     left.remove_prefix(std::min(left.find('\n'), left.size() - 1) + 1);
     if (in_files && line.starts_with("- ")) {
-      found.files.push_back(fs::path(trimmed(line.substr(2))).filename());
+      found.files.push_back(fs::path(unquoted(line.substr(2))).filename());
     } else {
       in_files = line == files_key;
     }
-    if (line.starts_with(format_key)) found.compression = trimmed(line.substr(format_key.size()));
+    if (line.starts_with(format_key)) found.compression = unquoted(line.substr(format_key.size()));
   }
   return found;
 }

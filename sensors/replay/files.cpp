@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "msgs/trimmed.h"
 #include "sensors/number.h"
 
 namespace maploop::sensors {
@@ -9,19 +10,13 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n\v\f";
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 }  // namespace
 
 std::vector<std::string_view> split_lines(std::string_view text) {
   std::vector<std::string_view> lines;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
-    lines.push_back(trimmed(text.substr(0, end)));
+    lines.push_back(trimmed(text.substr(0, end), blanks));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   while (!lines.empty() && lines.back().empty()) lines.pop_back();

@@ -6,15 +6,10 @@
 #include <utility>
 
 #include "msgs/input_limits.h"
+#include "msgs/trimmed.h"
 
 namespace maploop::evaluation {
 namespace {
-
-std::string_view trimmed(std::string_view text, std::string_view blanks) {
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 // Returns the text up to the separator and removes both from `rest`.
 std::string_view take(std::string_view& rest, std::string_view separators) {

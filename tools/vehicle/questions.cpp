@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "msgs/trimmed.h"
 #include "tools/vehicle/vehicle_tool.h"
 
 namespace maploop::vehicle_tool {
@@ -24,12 +25,6 @@ std::optional<ParameterValue> parsed(const std::string& text, ParameterValue val
   };
   if (!std::visit(read, value)) return std::nullopt;
   return value;
-}
-
-std::string trimmed(const std::string& line) {
-  const std::size_t first = line.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return {};
-  return line.substr(first, line.find_last_not_of(" \t\r") + 1 - first);
 }
 
 class Interview {
@@ -77,7 +72,8 @@ class Interview {
     const std::size_t space = sigma != nullptr ? answer.find_first_of(" \t") : std::string::npos;
     const P before = values;
     if (put(parameter, answer.substr(0, space), values) &&
-        (space == std::string::npos || put(*sigma, trimmed(answer.substr(space)), values)))
+        (space == std::string::npos ||
+         put(*sigma, std::string(trimmed(std::string_view(answer).substr(space))), values)))
       return true;
     values = before;
     return false;
@@ -102,7 +98,7 @@ class Interview {
     if (!std::getline(in_, text))
       throw std::runtime_error("the answers end before '" + std::string(key) + "' of [" +
                                std::string(table) + "]; nothing is written");
-    return trimmed(text);
+    return std::string(trimmed(text));
   }
 
   std::istream& in_;

@@ -31,12 +31,6 @@ std::string read_head(const std::filesystem::path& path) {
   return or_read_error([&] { return maploop::read_head(path, 4096); });
 }
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 std::optional<double> parse_number(std::string_view text) {
   text = trimmed(text);
   if (!text.empty() && text[0] == '+') text.remove_prefix(1);

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "msgs/trimmed.h"
 #include "ppp/gps_time.h"
 
 namespace maploop::ppp {
@@ -28,7 +29,6 @@ std::string read_head(const std::filesystem::path& path);
 inline std::string_view columns(std::string_view line, std::size_t first, std::size_t width) {
   return first < line.size() ? line.substr(first, width) : std::string_view{};
 }
-std::string_view trimmed(std::string_view text);
 inline bool blank(std::string_view text) {
   return text.find_first_not_of(' ') == std::string_view::npos;
 }
