@@ -61,7 +61,13 @@ NetworkData open_network(const std::filesystem::path& file, const OsmOptions& op
     return build_network(
         TiledMap(file).read(options.box.value_or(GeographicBox{}), options.max_nodes));
   }
-  return is_archive(file) ? load_network(file) : build_network(read_osm(file, options));
+  if (!is_archive(file)) return build_network(read_osm(file, options));
+  if (options.box) {
+    throw std::runtime_error("cannot read the part of " + file.string() +
+                             " inside a box: a network file is read whole; give the map that it "
+                             "was made from, or a tiled map");
+  }
+  return load_network(file);
 }
 
 }  // namespace maploop::mapmatch

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "runtime/core/number_text.h"
+#include "tools/command/output_check.h"
 
 namespace maploop::tools {
 namespace {
@@ -97,18 +98,15 @@ CLI::Validator existing_path() {
 }
 
 CLI::Validator writable_file() {
-  return {[](std::string& path) {
-            std::error_code error;
-            if (fs::is_directory(path, error))
-              fail("cannot write", path, "it is a folder; name a file");
-            const fs::path folder = fs::path(path).parent_path();
-            if (!folder.empty() && !fs::is_directory(folder, error)) {
-              fail("cannot write", path,
-                   "there is no folder '" + folder.string() + "'; make it first");
-            }
-            return std::string{};
-          },
-          ""};
+  return output_place().operation([](std::string& path) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) fail("cannot write", path, "it is a folder; name a file");
+    const fs::path folder = fs::path(path).parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, error)) {
+      fail("cannot write", path, "there is no folder '" + folder.string() + "'; make it first");
+    }
+    return std::string{};
+  });
 }
 
 }  // namespace maploop::tools

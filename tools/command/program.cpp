@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 
+#include "tools/command/output_check.h"
 #include "tools/command/terminal.h"
 #include "tools/command/usage_text.h"
 
@@ -39,6 +40,7 @@ int run(const Program& program, int argc, char** argv) {
   for (AddCommand* add : program.commands) add(app, command);
   try {
     app.parse(argc, argv);
+    check_outputs(app);
     const int status = command();
     if (printed_all()) return status;
     say("standard output was not taken: it is closed, or its disk is full");

@@ -114,7 +114,9 @@ void print(const nlohmann::json& info, double milliseconds) {
             << info["ways"] << " ways, " << info["length_km"].get<double>() << " km; "
             << info["junctions"] << " junctions, " << info["banned_turns"] << " banned turns, "
             << info["bridges"] << " bridges, " << info["tunnels"] << " tunnels, "
-            << info["roundabouts"] << " roundabouts\n";
+            << info["roundabouts"] << " roundabouts; its middle is at "
+            << info["origin"][0].get<double>() << ", " << info["origin"][1].get<double>()
+            << " (degrees north and east)\n";
   std::cout << "links with an opposite carriageway to the left: "
             << info["opposite_carriageways_to_left"]
             << ", to the right: " << info["opposite_carriageways_to_right"]
@@ -155,11 +157,6 @@ int build_tiles(const MapOptions& options) {
 }
 
 int build(const MapOptions& options) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(options.input, options.output, ignored)) {
-    throw std::runtime_error("the result would replace the map " + options.input.string() +
-                             ": give another name");
-  }
   if (options.tiles) return build_tiles(options);
   const OpenedNetwork opened = open(options);
   save_network(options.output, opened.network.data());

@@ -14,6 +14,7 @@
 #include "tools/command/commands.h"
 #include "tools/command/match_input_options.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/progress.h"
 #include "tools/match/doubts_file.h"
 #include "tools/match/match_score.h"
 
@@ -37,8 +38,9 @@ int find_doubts(const DoubtOptions& options) {
   }
   match::DoubtPool pool(network);
   std::size_t fixes = 0, on_road = 0;
+  Progress progress("tracks");
+  std::size_t done = 0;
   for (const std::filesystem::path& file : options.tracks) {
-    std::cerr << "\r\033[K" << file.filename().string() << std::flush;
     mapmatch::Matcher matcher(network, rules, parameters);
     std::vector<MapDoubt> doubts;
     const auto matched = match::match_track(matcher, options.track(file), {.doubts = &doubts});
@@ -46,8 +48,8 @@ int find_doubts(const DoubtOptions& options) {
     fixes += matched.size();
     on_road += static_cast<std::size_t>(std::count_if(
         matched.begin(), matched.end(), [](const match::MatchedFix& m) { return m.way_id; }));
+    progress.at(static_cast<double>(++done), static_cast<double>(options.tracks.size()));
   }
-  std::cerr << "\r\033[K";
   if (on_road == 0) {
     throw std::runtime_error("no fix of the tracks is on a road of " + options.map.string() +
                              ": is it the map of this area? 'maploop match' says why");

@@ -13,6 +13,7 @@
 #include "tools/command/commands.h"
 #include "tools/command/match_input_options.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/output_check.h"
 #include "tools/match/driven_route.h"
 #include "tools/match/match_output.h"
 #include "tools/match/match_score.h"
@@ -158,17 +159,23 @@ void add_match(CLI::App& app, Command& command) {
                   "too), GPX, NMEA, TUM or an LCM log (NAV_STATE, or GNSS_FIX); plain or .gz. Of "
                   "several tracks, what is written below is a folder with a file for each")
       ->required();
-  sub->add_option("--csv", options->csv, "Write one line a fix to this file");
-  sub->add_option("--geojson", options->geojson, "The same as GeoJSON, with reasons");
-  sub->add_option("--gpx", options->gpx, "Write the matched positions as GPX");
+  sub->add_option("--csv", options->csv, "Write one line a fix to this file")
+      ->check(output_place());
+  sub->add_option("--geojson", options->geojson, "The same as GeoJSON, with reasons")
+      ->check(output_place());
+  sub->add_option("--gpx", options->gpx, "Write the matched positions as GPX")
+      ->check(output_place());
   sub->add_option(
-      "--route", options->route,
-      "Write every link that was driven, also those between two fixes, to this file, in "
-      "the form of OSRM's match service (JSON)");
+         "--route", options->route,
+         "Write every link that was driven, also those between two fixes, to this file, in "
+         "the form of OSRM's match service (JSON)")
+      ->check(output_place());
   sub->add_option("--route-geojson", options->route_geojson,
-                  "The same as GeoJSON, a line for each link");
-  sub->add_option("--route-gpx", options->route_gpx, "The same as GPX");
-  sub->add_option("--html", options->html, "Write a page with map, streets, reasons and doubts");
+                  "The same as GeoJSON, a line for each link")
+      ->check(output_place());
+  sub->add_option("--route-gpx", options->route_gpx, "The same as GPX")->check(output_place());
+  sub->add_option("--html", options->html, "Write a page with map, streets, reasons and doubts")
+      ->check(output_place());
   sub->add_option("--lag", options->lag,
                   "Judge each fix by the fixes of so many seconds after it, too")
       ->check(number_in(0.0, longest_lag))

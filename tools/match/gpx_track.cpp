@@ -59,8 +59,10 @@ Track parse_gpx_track(std::string_view text, std::string_view name, const TrackO
                  longitude = number(attribute(tag, "lon"));
     if (std::isnan(latitude) || std::isnan(longitude)) throw fail("no lat and lon");
     fix.position = {radians(latitude), radians(longitude), 0.0};
-    const auto stamp = parse_track_time(child(inside, "time"));
-    if (!stamp) throw fail("no time, which matching needs");
+    const auto time = child(inside, "time");
+    if (time.empty()) throw fail("no time, which matching needs");
+    const auto stamp = parse_track_time(time);
+    if (!stamp) throw fail("the time '" + std::string(time) + "' cannot be read");
     fix.stamp = *stamp;
     fix.covariance = options.sigma * options.sigma * Eigen::Matrix2d::Identity();
     fix.speed = number(child(inside, "speed"));

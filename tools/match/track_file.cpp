@@ -51,6 +51,29 @@ void keep(const mapmatch::VehicleFix& fix, std::string_view name, Track& track) 
   track.push_back(fix);
 }
 
+namespace {
+
+// Takes an offset from UTC, such as +02:00, off the end of a date with a time.
+std::optional<Duration> take_offset(std::string& date) {
+  constexpr std::size_t size = 6;
+  if (date.size() <= size || date.find(':') >= date.size() - size) return std::nullopt;
+  const std::string_view offset = std::string_view(date).substr(date.size() - size);
+  const auto two_digits = [&](std::size_t at) -> std::optional<int> {
+    const char tens = offset[at], ones = offset[at + 1];
+    if (tens < '0' || tens > '9' || ones < '0' || ones > '9') return std::nullopt;
+    return 10 * (tens - '0') + ones - '0';
+  };
+  const auto hours = two_digits(1), minutes = two_digits(4);
+  if ((offset[0] != '+' && offset[0] != '-') || offset[3] != ':' || !hours || !minutes)
+    return std::nullopt;
+  const Duration east = std::chrono::hours(*hours) + std::chrono::minutes(*minutes);
+  const bool ahead = offset[0] == '+';
+  date.resize(date.size() - size);
+  return ahead ? east : -east;
+}
+
+}  // namespace
+
 std::optional<Time> parse_track_time(std::string_view text) {
   if (const auto seconds = evaluation::number_of<double>(text)) {
     if (!std::isfinite(*seconds) || std::abs(*seconds) > 9e9) return {};
@@ -59,9 +82,9 @@ std::optional<Time> parse_track_time(std::string_view text) {
   std::string date(text);
   if (const auto t = date.find('T'); t != std::string::npos) date[t] = ' ';
   if (date.ends_with('Z')) date.pop_back();
-  if (date.ends_with("+00:00")) date.resize(date.size() - 6);
+  const std::optional<Duration> east = take_offset(date);
   try {
-    return parse_time(date);
+    return parse_time(date) - east.value_or(Duration::zero());
   } catch (const std::invalid_argument&) {
     return {};
   }

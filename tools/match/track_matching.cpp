@@ -60,6 +60,20 @@ void refuse_equal_names(std::span<const std::filesystem::path> files) {
   }
 }
 
+std::filesystem::path file_of(const TrackOutput& output, const std::filesystem::path& track) {
+  return output.folder / (name_of(track) + output.ending);
+}
+
+void refuse_to_replace(std::span<const std::filesystem::path> tracks, const TrackOutput& output) {
+  for (const std::filesystem::path& track : tracks) {
+    std::error_code none;
+    if (std::filesystem::equivalent(file_of(output, track), track, none)) {
+      throw std::runtime_error("the results would replace the track " + track.string() +
+                               ": give another folder than " + output.folder.string());
+    }
+  }
+}
+
 }  // namespace
 
 MatchedTrack TrackMatching::match(Track fixes, std::string name,
@@ -84,6 +98,7 @@ void match_tracks(std::span<const std::filesystem::path> files,
                   const std::function<Track(const std::filesystem::path&)>& read,
                   const TrackMatching& matching, std::span<const TrackOutput> outputs) {
   if (!outputs.empty()) refuse_equal_names(files);
+  for (const TrackOutput& output : outputs) refuse_to_replace(files, output);
   for (const TrackOutput& output : outputs) std::filesystem::create_directories(output.folder);
   std::vector<TrackResult> results(files.size());
   tools::Progress progress("tracks");
@@ -99,8 +114,7 @@ void match_tracks(std::span<const std::filesystem::path> files,
           throw std::runtime_error(file.string() + ": " + *why);
         result.counts = summary(track, matching.network);
         result.kilometres = kilometres_of(track, matching.network);
-        for (const TrackOutput& output : outputs)
-          output.write(output.folder / (name_of(file) + output.ending), track);
+        for (const TrackOutput& output : outputs) output.write(file_of(output, file), track);
       } catch (const std::exception& e) {
         result.error = e.what();
       }

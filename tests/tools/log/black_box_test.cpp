@@ -124,6 +124,15 @@ TEST_F(BlackBox, LeavesOutADamagedBlock) {
   for (const TestEvent& e : events) EXPECT_TRUE(std::ranges::count(sent_, e) == 1);
 }
 
+TEST_F(BlackBox, OfARunThatHasEndedIsNotFrozen) {
+  {
+    const auto to = recorder(std::chrono::seconds(10));
+    send(*to, "RAW", 10);
+  }
+  EXPECT_TRUE(contains(error_of<std::runtime_error>([&] { vehicle::ask_to_freeze(box_); }),
+                       "its run has ended"));
+}
+
 TEST_F(BlackBox, IsFrozenWhenSomebodyAsks) {
   const auto to = recorder(std::chrono::milliseconds(1));
   send(*to, "RAW", 100);

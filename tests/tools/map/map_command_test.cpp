@@ -20,7 +20,7 @@ TEST_F(MapCommand, DoesNotReplaceTheMapByItsResult) {
     words.insert(words.end(), form.begin(), form.end());
     const ProcessResult refused = run_maploop(words);
     EXPECT_EQ(refused.status, 1) << refused.out;
-    EXPECT_THAT(refused.error, HasSubstr("would replace the map"));
+    EXPECT_THAT(refused.error, HasSubstr("it is read (MAP)"));
     EXPECT_EQ(read_file(map), street);
   }
 }

@@ -50,6 +50,15 @@ TEST(Verdict, SaysWhereHowGoodAndWhatWasNotUsed) {
   EXPECT_EQ(why_empty(r), std::nullopt);
 }
 
+TEST(Verdict, ScoresNothingWhereNothingIsScored) {
+  ReplayResult r = good();
+  for (const bool peer : {false, true}) {
+    r.peer_reference = peer;
+    r.navigation->whole = {};
+    EXPECT_THAT(verdict(r)[1], StartsWith("Not scored: "));
+  }
+}
+
 TEST(Verdict, OfARunThatUsedEverythingSaysSo) {
   EXPECT_EQ(verdict(good())[2], "VO-L-RI used all that it was given.");
 }

@@ -1,0 +1,64 @@
+// Commands run as a user would, whose outputs would destroy what they read, or each other.
+#include "tests/support/command_test.h"
+
+namespace maploop::output_check_test {
+namespace {
+
+using namespace maploop::testing;
+
+constexpr const char* street = R"(<osm version="0.6">
+<node id="1" lat="49.01" lon="8.41"/><node id="2" lat="49.02" lon="8.41"/>
+<way id="10"><nd ref="1"/><nd ref="2"/><tag k="highway" v="residential"/></way></osm>)";
+
+constexpr const char* track = R"(<gpx><trk><trkseg>
+<trkpt lat="49.012" lon="8.41"><time>2020-01-01T02:00:00+02:00</time></trkpt>
+<trkpt lat="49.013" lon="8.41"><time>2020-01-01T00:00:10Z</time></trkpt>
+</trkseg></trk></gpx>)";
+
+class OutputCheck : public CommandTest {
+ protected:
+  void refused(const Words& words, const char* why) {
+    const ProcessResult result = run_maploop(words);
+    EXPECT_EQ(result.status, 1) << result.out;
+    EXPECT_THAT(result.error, HasSubstr(why));
+    EXPECT_EQ(read_file(map_), street);
+    EXPECT_EQ(read_file(track_), track);
+  }
+
+  const std::string map_ = write("street.osm", street), track_ = write("track.gpx", track);
+};
+
+TEST_F(OutputCheck, NoOutputReplacesAnInput) {
+  refused({"match", map_, track_, "--gpx", track_}, "it is read (TRACK)");
+  refused({"match", map_, track_, "--csv", file("./street.osm")}, "it is read (MAP)");
+  refused({"map", "info", map_, "--json", map_}, "it is read (MAP)");
+  refused({"map", "doubts", map_, track_, "-o", track_}, "it is read (TRACK)");
+}
+
+TEST_F(OutputCheck, ResultsOfSeveralTracksDoNotReplaceThem) {
+  const std::string other = write("other.gpx", track), folder = file(".");
+  refused({"match", map_, track_, other, "--gpx", folder}, "would replace the track");
+  EXPECT_EQ(run_maploop({"match", map_, track_, other, "--csv", folder}).status, 0);
+}
+
+TEST_F(OutputCheck, NoTwoOutputsAreOneFile) {
+  refused({"match", map_, track_, "--csv", file("new"), "--gpx", file("./new")},
+          "--csv is written there");
+  const Words nowhere{"match", map_, track_, "--csv", "/dev/null", "--gpx", "/dev/null"};
+  EXPECT_EQ(run_maploop(nowhere).status, 0);
+}
+
+TEST_F(OutputCheck, ABoxOfANetworkFileIsRefused) {
+  const std::string network = file("street.net");
+  ASSERT_EQ(run_maploop({"map", "build", map_, network}).status, 0);
+  refused({"map", "info", network, "--box", "8,49,9,50"}, "a network file is read whole");
+}
+
+TEST_F(OutputCheck, TimesOfATrackMayHaveAnOffset) {
+  const std::string csv = file("matched.csv");
+  ASSERT_EQ(run_maploop({"match", map_, track_, "--csv", csv}).status, 0);
+  EXPECT_THAT(read_file(csv), HasSubstr("\n1577836800.000000,49.012")) << "and not two hours later";
+}
+
+}  // namespace
+}  // namespace maploop::output_check_test
