@@ -83,7 +83,9 @@ class LogSource final : public Source<T> {
   SourceReport report_;
 };
 
-// These channels can be replayed; the first one that the log has defines the frames.
+// These channels can be replayed. The first one that the log has of `image_channels` defines the
+// frames; without them it is the channel that begins first.
+constexpr std::array image_channels{channel_names::camera, channel_names::odometry};
 constexpr std::array sensor_channels{
     channel_names::camera,   channel_names::odometry,        channel_names::imu,
     channel_names::velodyne, channel_names::gnss_fix,        channel_names::wheel_speed,
@@ -95,6 +97,22 @@ struct Seen {
   Time first{};
   Time last{};
 };
+
+using SeenChannels = std::map<std::string_view, Seen>;
+
+// Precondition: not empty.
+const Seen& frames_of(const SeenChannels& seen) {
+  for (const std::string_view name : image_channels) {
+    if (const auto found = seen.find(name); found != seen.end()) return found->second;
+  }
+  const Seen* earliest = nullptr;
+  for (const std::string_view name : sensor_channels) {
+    const auto found = seen.find(name);
+    if (found == seen.end()) continue;
+    if (earliest == nullptr || found->second.first < earliest->first) earliest = &found->second;
+  }
+  return *earliest;
+}
 
 // Every message of a sensor begins with a header_t, whose stamp is returned.
 std::optional<Time> stamp_of(std::span<const std::uint8_t> data) {
@@ -113,7 +131,7 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
   const auto refuse = [&log](const std::string& why) {
     throw std::runtime_error("cannot replay the log '" + log.string() + "': " + why);
   };
-  std::map<std::string_view, Seen> seen;
+  SeenChannels seen;
   bool calibrated = false, of_another_version = false;
   const auto reader = open_log(log, own_schema());
   for (auto item = reader->next(); item != LogEvents::Item::end; item = reader->next()) {
@@ -147,14 +165,10 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
            "; record it again with 'maploop replay DRIVE --record'");
   }
   for (const auto& [name, unused] : seen) channels_.emplace(name);
-  for (const std::string_view name : sensor_channels) {
-    const auto found = seen.find(name);
-    if (found == seen.end()) continue;
-    frame_count_ = found->second.count;
-    first_stamp_ = found->second.first;
-    last_stamp_ = found->second.last;
-    break;
-  }
+  const Seen& frames = frames_of(seen);
+  frame_count_ = frames.count;
+  first_stamp_ = frames.first;
+  last_stamp_ = frames.last;
 }
 
 template <class T>

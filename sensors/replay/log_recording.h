@@ -32,8 +32,8 @@ class LogRecording {
 
   const VehicleCalibration& calibration() const { return calibration_; }
 
-  // These describe the first channel that the log has of: the images, the odometry made from them,
-  // the inertial samples, and then the other sensors.
+  // These describe the first channel that the log has of the images and the odometry made from
+  // them; without these, the sensor that begins first.
   std::size_t frame_count() const { return frame_count_; }
   Time first_stamp() const { return first_stamp_; }
   Time last_stamp() const { return last_stamp_; }

@@ -78,6 +78,20 @@ TEST_F(DamagedLog, ACalibrationOfAnotherTypeIsOfAnotherVersion) {
   EXPECT_THAT(error_of([&] { recording(); }), HasSubstr("from another version"));
 }
 
+TEST_F(DamagedLog, WithoutImagesTheSensorThatBeginsFirstDefinesTheBeginning) {
+  const Time with_images = recording().first_stamp();
+  message("GNSS_FIX", 0)[stamp + 3] -= 1;  // 2^32 ns earlier
+  EXPECT_EQ(recording().first_stamp(), with_images);
+  for (const std::string channel : {"CAMERA", "ODOMETRY"}) {
+    for (std::size_t at = 0; (at = bytes_.find(channel, at)) != std::string::npos; ++at)
+      bytes_[at] = 'X';
+  }
+  const LogRecording alone = recording();
+  EXPECT_EQ(alone.first_stamp(),
+            read_all(alone.source<GnssFix>(channel_names::gnss_fix)).front().stamp);
+  EXPECT_LT(alone.first_stamp(), with_images);
+}
+
 TEST_F(DamagedLog, OneWrongStampCostsOneMessage) {
   constexpr char a_lifetime = 0x20;  // bit 61 of nanoseconds
   for (const int n : {1, 2}) {
