@@ -93,6 +93,11 @@ evaluation::Matched matched_with(const evaluation::StampedTrajectory& truth,
   if (by_frame) {
     for (std::size_t& frame : matched.frames) frame += options.first;
   }
+  if (matched.truth.size() < 3 && by_frame) {
+    throw std::runtime_error(file.string() + " and " + options.truth.string() + " have " +
+                             std::to_string(matched.truth.size()) +
+                             " poses in common from --first to --last, and three are needed");
+  }
   if (matched.truth.size() < 3) {
     throw std::runtime_error(file.string() + " and " + options.truth.string() + " have " +
                              std::to_string(matched.truth.size()) +

@@ -1,6 +1,7 @@
 #include "tools/ppp/summary.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <array>
 
 namespace maploop::gnss {
@@ -57,7 +58,10 @@ std::string map_line(const MapAidedFilter& filter, std::size_t matched, std::siz
     if (use != MapUse::nothing_fed_back && filter.count(use) > 0)
       line += fmt::format(", {} {}", filter.count(use), to_string(use));
   }
-  return line + fmt::format("; forgotten as a wrong road's: {}", filter.restorations());
+  line += fmt::format("; forgotten as a wrong road's: {}", filter.restorations());
+  if (matched == 0)
+    line += "; is it the map of this area? 'maploop map info' says where its middle is";
+  return line;
 }
 
 void append_score(std::vector<std::string>& lines, const PppResult& r, double integrity_risk) {
@@ -77,8 +81,12 @@ void append_score(std::vector<std::string>& lines, const PppResult& r, double in
 std::string integer_line(const Solutions& solutions) {
   std::array<std::size_t, count_of<IntegerOutcome>> counts{};
   for (const PppSolution& s : solutions) ++counts[static_cast<std::size_t>(s.integers.outcome)];
+  const auto fixed = static_cast<std::size_t>(
+      std::ranges::count(solutions, PppStatus::fixed, &PppSolution::status));
   std::string line =
-      fmt::format("integer ambiguities in {} of {} epochs;", counts.back(), solutions.size());
+      fmt::format("integer ambiguities in {} of {} epochs;", fixed, solutions.size());
+  if (counts.back() > fixed)
+    line += fmt::format(" {} with too few of them for the position,", counts.back() - fixed);
   for (std::size_t i = 0; i + 1 < counts.size(); ++i) {
     line += fmt::format("{} {} {}", i > 0 ? "," : "", counts[i],
                         to_string(static_cast<IntegerOutcome>(i)));

@@ -88,7 +88,8 @@ class Replay {
         readiness_(options.lockstep ? runtime::RealtimeReport{}
                                     : runtime::prepare_process(config_.memory)),
         recording_(vehicle::open_recording(options.drive, config_, contents_)),
-        end_(options.end > 0.0 ? recording_.first_stamp + from_seconds(options.end) : Time::max()),
+        end_(options.end > 0.0 ? recording_.first_stamp + from_seconds(std::min(options.end, 1e9))
+                               : Time::max()),
         map_(load_road_map(config_.map, options.map_fault, driven_roads(options, recording_))),
         faults_(options.faults, recording_.first_stamp, recording_.calibration.stereo.fx),
         output_(options, config_, "replay of " + drive_name(options)),
@@ -141,6 +142,10 @@ class Replay {
 // Reports before the drive what would spoil its result.
 void Replay::look_ahead() const {
   const vehicle::Sensors sensors = recording_.sensors(Time::max());
+  if (options_.speed_scale && sensors.wheel == nullptr) {
+    throw std::runtime_error("--speed-scale: the recording '" + options_.drive.string() +
+                             "' has no wheel speeds to scale");
+  }
   for (const std::filesystem::path& file : {options_.poses, options_.tum}) {
     if (!file.empty() && sensors.camera == nullptr && sensors.odometry == nullptr) {
       throw std::runtime_error("'" + file.string() +

@@ -59,6 +59,8 @@ std::string against_peers(const ReplayResult& r) {
 }
 
 std::string how_good(const ReplayResult& r) {
+  if (r.outage_ends.empty() && r.navigation && r.navigation->whole.covered == 0.0)
+    return "Not scored: no state is within the time that is scored and has a reference.";
   if (!r.outage_ends.empty() || (r.peer_reference && r.navigation)) return against_peers(r);
   if (r.navigation) {
     const fusion_score::Errors& e = r.navigation->whole;

@@ -133,7 +133,12 @@ LogFormatOf black_box_format(std::uint64_t bytes, std::chrono::nanoseconds after
 }
 
 void ask_to_freeze(const std::filesystem::path& box) {
-  black_box::File(box, black_box::File::For::asking).set(&black_box::Head::freeze_asked);
+  black_box::File file(box, black_box::File::For::asking);
+  if (file.head().closed != 0 || file.head().frozen != 0) {
+    throw std::runtime_error("cannot freeze " + box.string() +
+                             ": its run has ended, or it is frozen; nothing more is written to it");
+  }
+  file.set(&black_box::Head::freeze_asked);
 }
 
 }  // namespace maploop::vehicle
