@@ -101,17 +101,17 @@ struct Seen {
 using SeenChannels = std::map<std::string_view, Seen>;
 
 // Precondition: not empty.
-const Seen& frames_of(const SeenChannels& seen) {
+Seen frames_of(const SeenChannels& seen) {
   for (const std::string_view name : image_channels) {
     if (const auto found = seen.find(name); found != seen.end()) return found->second;
   }
-  const Seen* earliest = nullptr;
+  std::optional<Seen> earliest;
   for (const std::string_view name : sensor_channels) {
     const auto found = seen.find(name);
     if (found == seen.end()) continue;
-    if (earliest == nullptr || found->second.first < earliest->first) earliest = &found->second;
+    if (!earliest || found->second.first < earliest->first) earliest = found->second;
   }
-  return *earliest;
+  return earliest.value();
 }
 
 // Every message of a sensor begins with a header_t, whose stamp is returned.
@@ -165,7 +165,7 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
            "; record it again with 'maploop replay DRIVE --record'");
   }
   for (const auto& [name, unused] : seen) channels_.emplace(name);
-  const Seen& frames = frames_of(seen);
+  const Seen frames = frames_of(seen);
   frame_count_ = frames.count;
   first_stamp_ = frames.first;
   last_stamp_ = frames.last;

@@ -47,7 +47,7 @@ FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter,
                          fusion::ProtectionMonitor protection, Duration odometry_budget)
     : GraphStage(stages::fusion, rings),
       filter_(std::move(filter)),
-      protection_(protection),
+      protection_(std::move(protection)),
       states_(outputs(rings::fusion_publisher, rings::fusion_ppp)),
       states_to_match_(outputs(rings::fusion_mapmatch)),
       image_states_(outputs(rings::image_states)),
