@@ -147,9 +147,10 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
     r.matched += run.map_step().way_id.has_value();
     r.solutions.push_back(s);
   });
-  if (r.solutions.empty())
+  if (r.solutions.empty()) {
     throw std::runtime_error(
         "no epoch is left between --start and --end, and outside --gnss-outage");
+  }
   std::move(compared.begin(), compared.end(), std::back_inserter(r.others));
   return r;
 }

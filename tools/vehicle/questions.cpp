@@ -95,9 +95,10 @@ class Interview {
   std::string line(const std::string& prompt, std::string_view table, std::string_view key) {
     out_ << prompt << std::flush;
     std::string text;
-    if (!std::getline(in_, text))
+    if (!std::getline(in_, text)) {
       throw std::runtime_error("the answers end before '" + std::string(key) + "' of [" +
                                std::string(table) + "]; nothing is written");
+    }
     return std::string(trimmed(text));
   }
 
