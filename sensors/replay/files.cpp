@@ -6,17 +6,12 @@
 #include "sensors/number.h"
 
 namespace maploop::sensors {
-namespace {
-
-constexpr std::string_view blanks = " \t\r\n\v\f";
-
-}  // namespace
 
 std::vector<std::string_view> split_lines(std::string_view text) {
   std::vector<std::string_view> lines;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
-    lines.push_back(trimmed(text.substr(0, end), blanks));
+    lines.push_back(trimmed(text.substr(0, end)));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   while (!lines.empty() && lines.back().empty()) lines.pop_back();
@@ -26,7 +21,7 @@ std::vector<std::string_view> split_lines(std::string_view text) {
 std::vector<double> parse_numbers(std::string_view text) {
   std::vector<double> numbers;
   while (!(text = trimmed(text)).empty()) {
-    const std::string_view word = text.substr(0, text.find_first_of(blanks));
+    const std::string_view word = text.substr(0, text.find_first_of(white_space));
     const auto number = parse_number<double>(word.starts_with('+') ? word.substr(1) : word);
     if (!number) {
       throw std::invalid_argument("column " + std::to_string(numbers.size() + 1) +

@@ -64,6 +64,11 @@ TEST(DamagedText, Timestamps) {
   EXPECT_GT(refused_lines, 2000U);
 }
 
+TEST(DamagedText, AnyWhiteSpaceSeparatesNumbers) {
+  EXPECT_EQ(parse_numbers("\v1 \t2\f\v3\r\n"), (std::vector<double>{1.0, 2.0, 3.0}));
+  EXPECT_TRUE(parse_numbers(" \f\v").empty());
+}
+
 TEST(DamagedText, OxtsRow) {
   MAPLOOP_REQUIRE_DRIVE();
   const std::string text = read_text(maploop::testing::drive_0013() / "oxts/data/0000000072.txt");

@@ -47,12 +47,12 @@ CLI::Validator output_place() {
   return CLI::Validator([](std::string&) { return std::string{}; }, "", mark);
 }
 
-void check_outputs(const CLI::App& app) {
+void check_outputs(CLI::App& app) {
   std::vector<Named> inputs, outputs;
-  for (const CLI::App* sub = &app; sub != nullptr;) {
-    for (const CLI::Option* option : sub->get_options()) {
+  for (CLI::App* sub = &app; sub != nullptr;) {
+    for (CLI::Option* option : sub->get_options()) {
       if (option->count() == 0) continue;
-      auto& list = is_output(const_cast<CLI::Option&>(*option)) ? outputs : inputs;
+      auto& list = is_output(*option) ? outputs : inputs;
       for (const std::string& value : option->results())
         list.push_back({option->get_name(), value});
     }

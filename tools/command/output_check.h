@@ -10,6 +10,6 @@ CLI::Validator output_place();
 
 // Throws std::runtime_error if a file that a parsed command is to write is also one that it was
 // given, or is to be written twice. Devices and pipes are left alone.
-void check_outputs(const CLI::App& app);
+void check_outputs(CLI::App& app);
 
 }  // namespace maploop::tools

@@ -31,8 +31,7 @@ class Pieces {
   Pieces(const SplitParameters& parameters, const path& log, const schema::Schema& schema)
       : parameters_(parameters), log_(log), schema_(schema) {}
 
-  // What is known before a piece begins, and written at its beginning: without the calibration it
-  // could not be replayed.
+  // Keeps the calibration, which each piece begins with: without it a piece cannot be replayed.
   void remember(const LogEvent& event) {
     if (event.channel != channel_names::calibration) return;
     calibration_.assign(event.data.begin(), event.data.end());

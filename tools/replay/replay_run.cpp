@@ -22,7 +22,6 @@
 #include "sensors/replay/reference_trajectory.h"
 #include "tools/command/options.h"
 #include "tools/command/terminal.h"
-#include "tools/log/log_files.h"
 #include "tools/replay/run_output.h"
 #include "tools/replay/wrong_road_map.h"
 
@@ -96,7 +95,6 @@ class Replay {
         camera_truth_(camera_truth(options.truth)) {
     describe_car(config_, recording_.calibration);              // for the report and the snapshots
     config_.vehicle.imu.time.delay = config_.replay.imu_delay;  // as the recording was read
-    if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
     for (const std::string& note : recording_.notes) std::cerr << "maploop: " << note << '\n';
     look_ahead();
     runtime::append(readiness_, output_.open_bus());

@@ -1,14 +1,11 @@
 // Commands run as a user would, whose outputs would destroy what they read, or each other.
+#include "tests/mapmatch/osm_file.h"
 #include "tests/support/command_test.h"
 
 namespace maploop::output_check_test {
 namespace {
 
 using namespace maploop::testing;
-
-constexpr const char* street = R"(<osm version="0.6">
-<node id="1" lat="49.01" lon="8.41"/><node id="2" lat="49.02" lon="8.41"/>
-<way id="10"><nd ref="1"/><nd ref="2"/><tag k="highway" v="residential"/></way></osm>)";
 
 constexpr const char* track = R"(<gpx><trk><trkseg>
 <trkpt lat="49.012" lon="8.41"><time>2020-01-01T02:00:00+02:00</time></trkpt>
@@ -21,16 +18,18 @@ class OutputCheck : public CommandTest {
     const ProcessResult result = run_maploop(words);
     EXPECT_EQ(result.status, 1) << result.out;
     EXPECT_THAT(result.error, HasSubstr(why));
-    EXPECT_EQ(read_file(map_), street);
+    EXPECT_EQ(read_file(map_), street_);
     EXPECT_EQ(read_file(track_), track);
   }
 
-  const std::string map_ = write("street.osm", street), track_ = write("track.gpx", track);
+  const std::string map_ =
+      OsmFile(file(".")).node(1, 49.01, 8.41).node(2, 49.02, 8.41).road(10, {1, 2}).write();
+  const std::string street_ = read_file(map_), track_ = write("track.gpx", track);
 };
 
 TEST_F(OutputCheck, NoOutputReplacesAnInput) {
   refused({"match", map_, track_, "--gpx", track_}, "it is read (TRACK)");
-  refused({"match", map_, track_, "--csv", file("./street.osm")}, "it is read (MAP)");
+  refused({"match", map_, track_, "--csv", file("./small.osm")}, "it is read (MAP)");
   refused({"map", "info", map_, "--json", map_}, "it is read (MAP)");
   refused({"map", "doubts", map_, track_, "-o", track_}, "it is read (TRACK)");
 }
