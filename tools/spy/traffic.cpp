@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <maploop_lcm/run_t.hpp>
+#include <utility>
 
 #include "msgs/lcm/channel_names.h"
 #include "msgs/lcm/checked_decode.h"
@@ -95,7 +96,7 @@ void Traffic::add(std::string_view name, std::span<const std::uint8_t> data, Dur
 void Traffic::read_header(Channel& channel) {
   const std::uint64_t fingerprint = schema::fingerprint_of(channel.last);
   const schema::Type* type = schema_.find(fingerprint);
-  channel.stamp.reset();
+  const std::optional<Time> previous = std::exchange(channel.stamp, std::nullopt);
   channel.type = type != nullptr ? type->name : fmt::format("0x{:016x}", fingerprint);
   const auto message = try_decode(schema_, channel.last);
   if (!message) {
@@ -106,7 +107,8 @@ void Traffic::read_header(Channel& channel) {
   read(*message, header);
   channel.stamp = stamp_of(header);
   const bool again = header.sequence && channel.sequence && *header.sequence <= *channel.sequence;
-  if (channel.stamp && (again || !newest_ || *channel.stamp > *newest_)) newest_ = channel.stamp;
+  const bool back = header.sequence ? again : previous > channel.stamp;
+  if (channel.stamp && (back || !newest_ || *channel.stamp > *newest_)) newest_ = channel.stamp;
   if (header.sequence && channel.sequence && !again) {
     channel.lost += static_cast<std::uint64_t>(*header.sequence) -
                     static_cast<std::uint64_t>(*channel.sequence) - 1;

@@ -34,8 +34,8 @@ struct ChannelStatus {
 
 // Ages are differences of data time and do not use this machine's clock: a replay's stamps are
 // years old, and a vehicle's clock may differ from ours. Therefore the newest stamp on any channel
-// is `now`, and the age of a channel that falls behind grows. A sequence that goes back has
-// restarted and is not counted as loss.
+// is `now`, and the age of a channel that falls behind grows. A sequence that goes back, or the
+// stamp of a channel without sequence, has restarted: its stamp is `now`, and nothing is lost.
 class Traffic {
  public:
   // The schema must outlive it.

@@ -82,6 +82,20 @@ TEST(SpyTraffic, HealthHasAStampButNoSequence) {
   EXPECT_EQ(s.bad, 0u);
 }
 
+TEST(SpyTraffic, AReplayThatStartsAgainIsSeenByAStampThatGoesBack) {
+  Traffic traffic(own_schema(), seconds(5));
+  Health health;
+  health.stamp = drive + seconds(14);
+  traffic.add("HEALTH", encoded(to_lcm(health)),
+              seconds(1));  // all that was heard of its last round
+  health.stamp = drive + seconds(1);
+  traffic.add("HEALTH", encoded(to_lcm(health)), seconds(2));
+  traffic.add("IMU", imu(0, drive + seconds(1)), seconds(2));
+  for (const ChannelStatus& s : traffic.status(seconds(2), lcm_log::matching(".*"))) {
+    EXPECT_EQ(*s.age_s, 0.0) << s.name;
+  }
+}
+
 TEST(SpyTraffic, WhatCannotBeDecodedIsCountedAndHarmsNobody) {
   Traffic traffic(own_schema(), seconds(5));
   auto cut = imu(1, drive);
