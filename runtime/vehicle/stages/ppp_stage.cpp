@@ -59,16 +59,11 @@ void PppStage::run(runtime::DataClock& clock, Time, const std::stop_token& stop)
       epochs_.pop();
       continue;
     }
-    if (epoch != nullptr) {
-      // Its state is available a budget later: until then nobody waits for it.
-      promise(epoch->available + spec().budget - Duration(1));
-    } else if (promised == Time::max()) {
-      save_until(promised, stop);
-      break;
-    } else {
-      save_until(std::min(promised, known), stop);
-      promise(promised + spec().budget);
-    }
+    // Nothing comes until then. A cut must not wait for an epoch: the stages before it wait for it.
+    const Time quiet = epoch != nullptr ? epoch->available - Duration(1) : promised;
+    save_until(quiet == Time::max() ? quiet : std::min(quiet, known), stop);
+    if (quiet == Time::max()) break;
+    promise(quiet + spec().budget);
     bell().wait(heard);
   }
   drain_inputs(stop);
