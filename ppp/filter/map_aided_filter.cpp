@@ -15,6 +15,13 @@ const PppSolution& MapAidedFilter::process(const Epoch& epoch, const CarriedMoti
   return solution();
 }
 
+void MapAidedFilter::count_anew() {
+  map_free_.count_anew();
+  aided_.count_anew();
+  uses_ = {};
+  restorations_ = 0;
+}
+
 MapUse MapAidedFilter::add(const MapFeedback& feedback) {
   if (feedback.reason == FeedbackReason::inconsistent && aiding_) handle_contradiction();
   const MapUse use = apply(feedback);

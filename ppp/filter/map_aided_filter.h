@@ -43,6 +43,10 @@ class MapAidedFilter {
   // discarded.
   std::uint64_t count(MapUse use) const { return uses_[static_cast<std::size_t>(use)]; }
   std::uint64_t restorations() const { return restorations_; }
+  // The counts begin at 0 again, also those of restarts.
+  void count_anew();
+
+  GpsTime last_epoch() const { return time_; }
 
   static constexpr std::size_t largest_archive = 2 * PppFilter::largest_archive + 512;
 

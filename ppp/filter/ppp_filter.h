@@ -49,6 +49,8 @@ class PppFilter {
 
   // Forgets everything except what is the receiver's own: its signal strengths and its clock steps.
   void reset();
+  // The count of restarts begins at 0 again.
+  void count_anew() { restarts_ = solution_.restarts = 0; }
 
   // This is the largest size of an archive, bytes.
   static constexpr std::size_t largest_archive =

@@ -73,7 +73,7 @@ void wait_for_end(const vehicle::Vehicle& vehicle, double seconds, const LiveSta
   const bool visible = is_screen(STDERR_FILENO);
   for (int i = 0; vehicle.running() && !interrupted(); ++i) {
     if (output.presence() != nullptr) output.presence()->update();
-    output.update_car_state();
+    output.car().update();
     const Time position = vehicle.position();
     if (position - told >= tell_every) {
       tell_service_manager("WATCHDOG=1");
@@ -106,13 +106,13 @@ int live(const LiveOptions& options) {
   LiveStatus status;
   note_interrupts();
   vehicle::Observer observer = observer_of(options, pass, status);
-  output.keep_car_state(observer);
+  output.car().observe(observer);
   vehicle::Vehicle vehicle(config, calibration, std::move(sensors), runtime::DataClock::live(),
                            output.sinks(pass, vehicle::LogRecorder::WhenBehind::drop),
                            std::move(observer), output.new_tracer(), map);
   vehicle.prepared(readiness);
-  output.recall(vehicle);
-  output.fill_black_box(vehicle, pass);
+  output.car().recall(vehicle);
+  output.take_snapshots(vehicle, pass);
   vehicle.start();
   std::cerr << (options.verbose ? to_text(vehicle.readiness())
                                 : to_short_text(vehicle.readiness()));

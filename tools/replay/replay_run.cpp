@@ -176,7 +176,7 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
   const auto clock = options_.lockstep ? runtime::DataClock::virtual_time()
                                        : runtime::DataClock::paced(options_.speed);
   vehicle::Observer observer = pass_->observer();
-  output_.keep_car_state(observer);
+  output_.car().observe(observer);
   auto vehicle = std::make_unique<vehicle::Vehicle>(
       config_, recording_.calibration, faults_.inject(std::move(sensors)), clock, std::move(sinks),
       std::move(observer), output_.new_tracer(), map_);
@@ -188,14 +188,14 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
       snapshot_taken_ = true;
     });
   }
-  output_.fill_black_box(*vehicle, *pass_);
+  output_.take_snapshots(*vehicle, *pass_);
   place(*vehicle, from);
   return vehicle;
 }
 
 // Puts a new vehicle where it goes on, or where it starts.
 void Replay::place(vehicle::Vehicle& vehicle, const vehicle::Snapshot* from) {
-  output_.recall(vehicle);
+  output_.car().recall(vehicle);
   if (from != nullptr) {
     vehicle.resume(*from);
   } else if (resumed_) {

@@ -3,8 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <exception>
-#include <functional>
 #include <iostream>
 #include <stdexcept>
 #include <utility>
@@ -13,6 +11,7 @@
 #include "runtime/core/data_clock.h"
 #include "runtime/core/whole_file.h"
 #include "runtime/vehicle/output/black_box.h"
+#include "tools/command/attempt.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/command/terminal.h"
@@ -39,17 +38,6 @@ void write_states(const RunOptions& options, const RunPass& pass,
   if (!options.tum.empty()) evaluation::write_tum(options.tum, fused);
   if (!options.csv.empty()) write_nav_csv(options.csv, pass.track);
   if (!options.nmea.empty()) write_nmea(options.nmea, pass.track);
-}
-
-// Returns whether it succeeded.
-bool attempt(const std::function<void()>& write) {
-  try {
-    write();
-    return true;
-  } catch (const std::exception& e) {
-    std::cerr << "maploop: " << e.what() << '\n';
-    return false;
-  }
 }
 
 }  // namespace
@@ -84,7 +72,8 @@ void add_run_options(CLI::App* sub, RunOptions& options, WritePage* write_page) 
              "went back: since then)");
   add_output(sub, "--state", options.state,
              "Start from what this file says of the car, if it exists, and keep there where the "
-             "car is, and what is estimated of it: mounts, axle, antenna, scales, biases");
+             "car is, and what is estimated of it: mounts, axle, antenna, scales, biases; with PPP "
+             "its filter too, in FILE.ppp");
   add_output(sub, "--poses", options.poses,
              "Write the fused left-camera poses to this file in KITTI's format");
   add_output(sub, "--tum", options.tum, "The same in TUM's format, with stamps");
@@ -117,67 +106,6 @@ std::vector<RealtimeSetting> RunOutput::open_bus() {
   return bus_->settings();
 }
 
-// A computer that nobody attends starts without a damaged file, and keeps it to be looked at.
-std::optional<vehicle::CarState> RunOutput::known_car_state() const {
-  try {
-    return vehicle::read_car_state(options_.state, config_.vehicle.car.name);
-  } catch (const vehicle::DamagedCarState& damage) {
-    std::filesystem::path aside = options_.state;
-    aside += ".damaged";
-    std::filesystem::rename(options_.state, aside);
-    std::cerr << "maploop: " << damage.what() << "; the file is kept as '" << aside.string()
-              << "', and this run starts without it\n";
-    return std::nullopt;
-  }
-}
-
-void RunOutput::recall(vehicle::Vehicle& vehicle) {
-  if (options_.state.empty()) return;
-  const std::optional<vehicle::CarState> known = known_car_state();
-  if (!known) return;
-  remembered_ = known->calibration;
-  vehicle.recall(known->calibration);
-  if (known->place) vehicle.recall(*known->place);
-}
-
-void RunOutput::say_place(fusion::PlaceUse use) {
-  if (!fusion::dropped(use) || use == place_said_) return;
-  place_said_ = use;
-  std::cerr << "maploop: " << to_string(use) << ", so '" << options_.state.string()
-            << "' gives no position to start from; the first fix does\n";
-}
-
-void RunOutput::keep_car_state(vehicle::Observer& observer) {
-  if (options_.state.empty()) return;
-  car_state_written_ = runtime::monotonic_now();
-  observer.calibration = [this](const vehicle::CalibrationReport& estimated) {
-    const std::lock_guard lock(car_state_mutex_);
-    car_state_.at = estimated.stamp;
-    car_state_.calibration = estimated.properties;
-  };
-  observer.place = [this](fusion::PlaceUse use, const std::optional<fusion::LastPlace>& here) {
-    const std::lock_guard lock(car_state_mutex_);
-    place_use_ = use;
-    car_state_.place = here;
-  };
-}
-
-void RunOutput::update_car_state() {
-  constexpr Duration every = std::chrono::seconds(2);
-  if (options_.state.empty() || runtime::monotonic_now() - car_state_written_ < every) return;
-  car_state_written_ = runtime::monotonic_now();
-  vehicle::CarEstimate state;
-  fusion::PlaceUse use{};
-  {
-    const std::lock_guard lock(car_state_mutex_);
-    state = car_state_;
-    use = place_use_;
-  }
-  say_place(use);
-  state.before = remembered_;
-  attempt([&] { vehicle::write_car_state(options_.state, config_.vehicle.car.name, state); });
-}
-
 std::vector<vehicle::MessageSink*> RunOutput::sinks(RunPass& pass,
                                                     vehicle::LogRecorder::WhenBehind behind) {
   std::vector<vehicle::MessageSink*> sinks{&pass.hashes};
@@ -197,8 +125,9 @@ std::vector<vehicle::MessageSink*> RunOutput::sinks(RunPass& pass,
   return sinks;
 }
 
-void RunOutput::fill_black_box(vehicle::Vehicle& vehicle, RunPass& pass) const {
+void RunOutput::take_snapshots(vehicle::Vehicle& vehicle, RunPass& pass) {
   constexpr Duration every = std::chrono::seconds(10);
+  car_.observe_ppp(vehicle, every);
   if (!pass.black_box) return;
   vehicle.take_snapshots(every, [this, &box = *pass.black_box](const vehicle::Snapshot& snapshot) {
     const Bytes bytes = vehicle::snapshot_bytes(snapshot, config_);
@@ -235,17 +164,7 @@ bool RunOutput::write(const ReplayResult& result, const RunPass& pass,
   if (!options_.json.empty()) all &= attempt([&] { write_json(options_.json, result); });
   if (result.end)
     all &= attempt([&] { write_states(options_, pass, calibration.stereo.T_body_cam); });
-  if (!options_.state.empty()) {
-    say_place(result.vehicle.place);
-    all &= attempt([&] {
-      const vehicle::CarEstimate state{result.vehicle.last, result.vehicle.calibration,
-                                       result.vehicle.here, remembered_};
-      if (vehicle::write_car_state(options_.state, config_.vehicle.car.name, state) == 0) {
-        std::cerr << "maploop: '" << options_.state.string()
-                  << "' is not written, because there was no position\n";
-      }
-    });
-  }
+  all &= car_.write(result.vehicle);
   if (!options_.report.empty()) {
     all &= attempt([&] {
       const auto roads = map != nullptr ? roads_about(pass, *map) : nullptr;

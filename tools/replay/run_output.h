@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,12 +13,12 @@
 #include "msgs/named_enum.h"
 #include "runtime/core/realtime.h"
 #include "runtime/core/trace.h"
-#include "runtime/vehicle/config/car_state.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/graph/vehicle.h"
 #include "runtime/vehicle/output/lcm_bus.h"
 #include "runtime/vehicle/output/runs.h"
 #include "tools/command/commands.h"
+#include "tools/replay/car_memory.h"
 #include "tools/replay/run_pass.h"
 
 namespace maploop::tools {
@@ -61,7 +60,10 @@ class RunOutput {
   // `what` describes the run to others on the bus. The options and the configuration must outlive
   // this.
   RunOutput(const RunOptions& options, const vehicle::VehicleConfig& config, std::string what)
-      : options_(options), config_(config), run_(vehicle::new_run(std::move(what))) {}
+      : options_(options),
+        config_(config),
+        run_(vehicle::new_run(std::move(what))),
+        car_(options.state, config) {}
 
   const std::string& run() const { return run_.id; }
 
@@ -72,23 +74,14 @@ class RunOutput {
   vehicle::LcmBus* bus() { return bus_.get(); }
   vehicle::RunPresence* presence() { return presence_ ? &*presence_ : nullptr; }
 
-  // Tells the vehicle where the car was, and what an earlier drive has estimated of it (--state);
-  // before start(). A damaged file is renamed and said. Throws std::runtime_error if the file
-  // cannot be used.
-  void recall(vehicle::Vehicle& vehicle);
-
-  // Writes where the car is, and what has been estimated of it since, every two seconds: a
-  // vehicle's computer is often switched off without a warning. `observer` takes note of it on the
-  // publisher's thread; update() writes it on the caller's, and says on standard error what failed,
-  // and that the place in the file is not used.
-  void keep_car_state(vehicle::Observer& observer);
-  void update_car_state();
+  // What the run keeps of the car (--state).
+  CarMemory& car() { return car_; }
 
   // Returns the sinks of the run's messages: the hashes, the bus and the log.
   std::vector<vehicle::MessageSink*> sinks(RunPass& pass, vehicle::LogRecorder::WhenBehind behind);
-  // Lets the vehicle save itself in the black box of this pass, if one was asked for; before
-  // start().
-  void fill_black_box(vehicle::Vehicle& vehicle, RunPass& pass) const;
+  // Lets the vehicle save itself in the black box of this pass, if one was asked for, and PPP in
+  // what is kept of the car; before start().
+  void take_snapshots(vehicle::Vehicle& vehicle, RunPass& pass);
   // Returns a new tracer, which replaces the one before; nullptr without --trace. Throws
   // std::runtime_error if its file cannot be written.
   runtime::Tracer* new_tracer();
@@ -109,17 +102,7 @@ class RunOutput {
   std::unique_ptr<vehicle::LcmBus> bus_;
   std::optional<vehicle::RunPresence> presence_;
   std::unique_ptr<runtime::Tracer> tracer_;
-
-  std::optional<vehicle::CarState> known_car_state() const;
-  void say_place(fusion::PlaceUse use);
-
-  std::mutex car_state_mutex_;
-  vehicle::CarEstimate car_state_;
-  fusion::PlaceUse place_use_{};
-  // The caller's alone.
-  fusion::RememberedCalibration remembered_;
-  fusion::PlaceUse place_said_{};
-  MonotonicTime car_state_written_{};
+  CarMemory car_;
 };
 
 }  // namespace maploop::tools

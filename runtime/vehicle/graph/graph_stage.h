@@ -56,6 +56,9 @@ class GraphStage {
   }
   // Restores what was saved; throws ArchiveError if it is from another version or configuration.
   void resume(std::span<const std::uint8_t> saved);
+  // Takes what was saved in an earlier run on other data, as far as it still helps; before run().
+  // Throws as resume() does.
+  virtual void recall_saved(std::span<const std::uint8_t> /*saved*/) {}
   // Memory that is mapped beforehand for a saved state; a larger one is not an error.
   virtual std::size_t saved_bytes() const = 0;
 

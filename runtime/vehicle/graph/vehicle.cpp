@@ -38,6 +38,14 @@ void Vehicle::recall(const fusion::LastPlace& place) {
   graph_->fusion->recall(known);
 }
 
+void Vehicle::recall(const StageSpec& stage, std::span<const std::uint8_t> saved) {
+  if (GraphStage* there = graph_->stage(stage.name)) there->recall_saved(saved);
+}
+
+bool Vehicle::has(const StageSpec& stage) const {
+  return graph_->rings.has(stage);
+}
+
 void Vehicle::start_from(const fusion::KnownStart& known) {
   const fusion::Outcome outcome = graph_->fusion->start_from(known);
   if (outcome.refused()) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "estimators/fusion/initial_state.h"
@@ -49,6 +50,13 @@ class Vehicle {
   // first fix contradicts it (fusion::PlaceUse); before start().
   void recall(const fusion::LastPlace& place);
 
+  // The stage takes of an earlier run's snapshot of it what still helps on other data; before
+  // start(). Throws ArchiveError that says what does not fit.
+  void recall(const StageSpec& stage, std::span<const std::uint8_t> saved);
+
+  // Whether this vehicle runs the stage.
+  bool has(const StageSpec& stage) const;
+
   // The filter starts from these values instead of a fix; before start(). Throws
   // std::invalid_argument where they cannot be.
   void start_from(const fusion::KnownStart& known);
@@ -57,7 +65,7 @@ class Vehicle {
   // fusion. Those before the start or after the end are never taken. Before start(); more
   // than one may ask.
   void take_snapshots(std::vector<Time> moments, SnapshotHandler handler);
-  // The same at all multiples of a period since 1970. Only one may ask for that.
+  // The same at all multiples of a period since 1970. All who ask for that give the same period.
   void take_snapshots(Duration every, SnapshotHandler handler);
 
   // Goes on from a snapshot of the same recording: what is sent from then on has the bits of a run

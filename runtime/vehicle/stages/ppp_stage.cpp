@@ -14,6 +14,9 @@ namespace maploop::vehicle {
 namespace {
 
 constexpr auto relaxed = std::memory_order_relaxed;
+constexpr int layout = 6;  // of the archive
+// The filter of an earlier run is used for so long.
+constexpr Duration longest_away = std::chrono::minutes(10);
 
 // A live receiver without precise products adds what it receives to the broadcast ephemeris.
 std::optional<ppp::CorrectedEphemeris> grows(const ppp::PppSetup& setup) {
@@ -128,7 +131,7 @@ void PppStage::say_corrections() {
     }
   }
   if (state_.satellites_corrected == 0) counts_.uncorrected.fetch_add(1, relaxed);
-  counts_.correction_age.store(state_.correction_age.value_or(-1.0), relaxed);
+  correction_age_.store(state_.correction_age.value_or(-1.0), relaxed);
   const std::string what = wrong_with_corrections();
   if (what.empty()) return;
   for (PppState* state : {&state_, &free_state_})
@@ -136,7 +139,7 @@ void PppStage::say_corrections() {
 }
 
 std::string PppStage::wrong_with_corrections() const {
-  const double age = counts_.correction_age.load(relaxed);
+  const double age = correction_age_.load(relaxed);
   if (corrections_ == nullptr) return {};
   if (age < 0.0) return "ppp: no corrections have come: broadcast orbits and clocks";
   if (age <= to_seconds(ppp::CorrectedEphemeris::longest_age)) return {};
@@ -147,11 +150,11 @@ std::string PppStage::wrong_with_corrections() const {
 void PppStage::look_at_ionosphere(ppp::GpsTime t) {
   if (!setup_->one_frequency()) return;
   const auto age = setup_->age_of_ionosphere(t, received_ ? &*received_ : nullptr);
-  counts_.age_of_ionosphere.store(age.value_or(Duration::max()), relaxed);
+  age_of_ionosphere_.store(age.value_or(Duration::max()), relaxed);
 }
 
 std::string PppStage::degraded() const {
-  const Duration age = counts_.age_of_ionosphere.load(relaxed);
+  const Duration age = age_of_ionosphere_.load(relaxed);
   const std::string ionosphere =
       ppp::ionosphere_lack(age == Duration::max() ? std::nullopt : std::optional(age));
   std::string what = wrong_with_corrections();
@@ -191,6 +194,7 @@ void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
   span.step_flow(flow_of(epoch));
   delay(epoch.available);
   if (last_epoch_ != Time::min()) use_feedback(epoch.available);
+  if (recalled_) forget_outdated(epoch.epoch.time);
   if (received_) {
     received_->add(epoch.heard);
     received_->begin(epoch.epoch.time);
@@ -208,7 +212,9 @@ void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
   }
   say_corrections();
   look_at_ionosphere(epoch.epoch.time);
-  count(state_);
+  counts_.note(state_);
+  if (setup_->heights() != nullptr) counts_.heights.add(filter_.map_free().height_use);
+  counts_.forgotten_roads.store(filter_.restorations(), relaxed);
   use_.note(epoch.available, state_.status == PppStatus::none ? "no position" : nullptr);
   while (!sent_.empty() && sent_.front().state.available <= epoch.available) {
     spare_ = std::move(sent_.front());
@@ -221,17 +227,6 @@ void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
   sent_.back().fix.increment = ppp::increment_of(filter_.map_free());
   send(sent_.back(), stop);
   use_feedback(epoch.available);
-}
-
-void PppStage::count(const PppState& state) {
-  for (const PppSatellite& s : state.satellites) {
-    counts_.refused.add(s.refusal);
-    counts_.slipped.add(s.slip);
-  }
-  if (state.status == PppStatus::none) counts_.without_position.fetch_add(1, relaxed);
-  if (setup_->heights() != nullptr) counts_.heights.add(filter_.map_free().height_use);
-  counts_.restarts.store(state.restarts, relaxed);
-  counts_.forgotten_roads.store(filter_.restorations(), relaxed);
 }
 
 void PppStage::send(Sent& sent, const std::stop_token& stop) {
@@ -253,42 +248,33 @@ void PppStage::save_until(Time t, const std::stop_token& stop) {
 // matcher that resumes sends the feedback that becomes available after the cut.
 template <class Archive>
 void PppStage::archive(Archive& ar, Time cut) {
-  ar.section(spec().name, 6);
-  const auto number = [&ar](std::atomic<std::uint64_t>& value) {
-    std::uint64_t saved = value;
-    ar(saved);
-    if constexpr (Archive::loading) value = saved;
-  };
+  ar.section(spec().name, layout);
   std::vector<MapFeedback> held;
   std::copy_if(held_.begin(), held_.end(), std::back_inserter(held),
                [cut](const MapFeedback& f) { return f.available <= cut; });
-  ar(filter_, counts_.refused, counts_.slipped, counts_.heights);
-  number(counts_.without_position);
-  number(counts_.restarts);
-  number(counts_.forgotten_roads);
-  ar(sent_, held, last_epoch_);
+  ar(filter_, counts_, sent_, held, last_epoch_);
   track_.archive(ar, cut);
   if constexpr (Archive::loading) held_ = std::move(held);
+}
+
+void PppStage::recall_saved(std::span<const std::uint8_t> saved) {
+  ArchiveReader ar(saved);
+  ar.section(spec().name, layout);
+  ar(filter_);
+  filter_.count_anew();
+  recalled_ = true;
+}
+
+void PppStage::forget_outdated(ppp::GpsTime now) {
+  recalled_ = false;
+  if (now > filter_.last_epoch() && now - filter_.last_epoch() < longest_away) return;
+  filter_ = setup_->make_map_aided_filter(received_ ? &*received_ : nullptr);
+  counts_.outdated.fetch_add(1, relaxed);
 }
 
 std::size_t PppStage::saved_bytes() const {
   return ppp::MapAidedFilter::largest_archive + AntennaTrack::largest_archive +
          2 * ppp::usual_satellites * sizeof(PppSatellite) + 4096;
-}
-
-std::vector<RefusalCount> PppStage::refusals() {
-  std::vector<RefusalCount> all;
-  const auto add = [&](std::string_view reason, std::uint64_t count) {
-    if (count > 0) all.push_back({std::string(spec().name), std::string(reason), count});
-  };
-  add("epoch without a position", counts_.without_position.load(relaxed));
-  counts_.refused.append_to(all, spec().name);
-  counts_.slipped.append_to(all, spec().name, "slip: ");
-  counts_.heights.append_to(all, spec().name, "height of the ground: ");
-  add("begun anew: measurements disagreed with the position", counts_.restarts.load(relaxed));
-  add("a wrong road forgotten", counts_.forgotten_roads.load(relaxed));
-  add("epoch without corrections", counts_.uncorrected.load(relaxed));
-  return all;
 }
 
 }  // namespace maploop::vehicle

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -17,9 +18,9 @@
 #include "ppp/products/corrected.h"
 #include "runtime/vehicle/drivers/gnss_epoch.h"
 #include "runtime/vehicle/graph/graph_stage.h"
-#include "runtime/vehicle/health/reason_counts.h"
 #include "runtime/vehicle/health/watchdog.h"
 #include "runtime/vehicle/stages/antenna_track.h"
+#include "runtime/vehicle/stages/ppp_counts.h"
 
 namespace maploop::vehicle {
 
@@ -36,9 +37,12 @@ class PppStage final : public GraphStage {
 
   void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
   std::size_t saved_bytes() const override;
+  // Takes the filter: its ambiguities hold as long as the receiver has kept its lock. It is
+  // forgotten if the first epoch is later by more than ten minutes, or earlier.
+  void recall_saved(std::span<const std::uint8_t> saved) override;
   std::vector<UseWatch*> uses() override { return {&use_}; }
   // Epochs without a position, refused satellites and slips by their reasons, and restarts.
-  std::vector<RefusalCount> refusals() override;
+  std::vector<RefusalCount> refusals() override { return counts_.refusals(); }
   // Missing or old corrections, and missing coefficients of the ionosphere, at the last epoch.
   std::string degraded() const override;
 
@@ -65,25 +69,12 @@ class PppStage final : public GraphStage {
   void drain_inputs(const std::stop_token& stop);
   void use_feedback(Time until);
   void process(const GnssEpoch& epoch, const std::stop_token& stop);
-  void count(const PppState& state);
+  void forget_outdated(ppp::GpsTime now);
   void send(Sent& sent, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
   void load(ArchiveReader& ar) override { archive(ar, Time::max()); }
   template <class Archive>
   void archive(Archive& ar, Time cut);
-
-  struct Counts {
-    ReasonCounts<PppRefusal, count_of<PppRefusal>> refused;
-    ReasonCounts<PppSlip, count_of<PppSlip>> slipped;
-    ReasonCounts<ppp::HeightUse, count_of<ppp::HeightUse>> heights;  // where there is a model
-    std::atomic<std::uint64_t> without_position{0};
-    std::atomic<std::uint64_t> restarts{0};
-    std::atomic<std::uint64_t> forgotten_roads{0};
-    std::atomic<std::uint64_t> uncorrected{0};  // epochs, where corrections are received
-    std::atomic<double> correction_age{0.0};    // s; negative: none ever came
-    // With one frequency; Duration::max(): there are none.
-    std::atomic<Duration> age_of_ionosphere{Duration::zero()};
-  };
 
   std::shared_ptr<const ppp::PppSetup> setup_;       // what the filter looks at
   std::optional<ppp::CorrectedEphemeris> received_;  // of a live receiver without precise orbits
@@ -103,7 +94,11 @@ class PppStage final : public GraphStage {
   AntennaTrack track_;
   Time last_epoch_ = Time::min();  // its stamp
   Duration receiver_ahead_{};      // its clock before that of stamps
-  Counts counts_;
+  PppCounts counts_;
+  std::atomic<double> correction_age_{0.0};  // s; negative: none ever came
+  // With one frequency; Duration::max(): there are none.
+  std::atomic<Duration> age_of_ionosphere_{Duration::zero()};
+  bool recalled_ = false;  // the filter is an earlier run's, and there was no epoch yet
 };
 
 }  // namespace maploop::vehicle

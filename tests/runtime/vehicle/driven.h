@@ -30,6 +30,7 @@ struct Drive {
   std::shared_ptr<const RoadMap> map = nullptr;
   std::vector<Time> cuts = {};     // where snapshots are taken
   const Snapshot* from = nullptr;  // where the drive goes on from
+  const Bytes* ppp = nullptr;      // the filter of an earlier run
   std::vector<std::string> faults = {};
   Time faults_from = drive_start;        // what the windows of the faults count from
   std::vector<MessageSink*> sinks = {};  // besides those that keep what is sent
@@ -110,6 +111,7 @@ inline Driven drive(Drive d) {
   vehicle.prepared(d.prepared);
   vehicle.slow_down(injection.delays());
   if (d.from != nullptr) vehicle.resume(*d.from);
+  if (d.ppp != nullptr) vehicle.recall(stages::ppp, *d.ppp);
   if (!d.cuts.empty())
     vehicle.take_snapshots(d.cuts, [&](const Snapshot& s) { driven.snapshots.push_back(s); });
   const auto hogs = injection.hogs([&] { return vehicle.position(); });

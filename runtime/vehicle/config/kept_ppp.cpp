@@ -1,0 +1,54 @@
+#include "runtime/vehicle/config/kept_ppp.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
+#include "runtime/core/whole_file.h"
+
+namespace maploop::vehicle {
+namespace {
+
+template <class Archive>
+void describe(Archive& ar, std::string& car, Bytes& filter) {
+  ar.section("kept ppp", 1);
+  ar(car, filter);
+}
+
+}  // namespace
+
+void write_kept_ppp(const std::filesystem::path& file, const std::string& car,
+                    std::span<const std::uint8_t> filter) {
+  std::string name = car;
+  Bytes content(filter.begin(), filter.end());
+  ArchiveWriter writer;
+  describe(writer, name, content);
+  const Bytes sealed = seal(writer.content());
+  runtime::write_whole_file(file, {reinterpret_cast<const char*>(sealed.data()), sealed.size()});
+}
+
+std::optional<Bytes> read_kept_ppp(const std::filesystem::path& file, const std::string& car) {
+  const auto refuse = [&file](const std::string& why) {
+    throw std::runtime_error("cannot use '" + file.string() + "': " + why);
+  };
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  std::string of;
+  Bytes filter;
+  try {
+    const Bytes sealed = read_sealed(file, input_limits::snapshot);
+    ArchiveReader reader(unseal(sealed));
+    describe(reader, of, filter);
+    reader.finish();
+  } catch (const ArchiveError& e) {
+    refuse(e.what());
+  } catch (const FileError& e) {
+    refuse(e.reason());
+  }
+  if (of != car) refuse(fmt::format("it is of the car '{}', and this is '{}'", of, car));
+  return filter;
+}
+
+}  // namespace maploop::vehicle
