@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "ppp/products/ephemeris.h"
@@ -36,7 +37,33 @@ class BroadcastEphemeris : public Ephemeris {
 
   const BroadcastIonosphere& ionosphere() const { return ionosphere_; }
 
+  // Saves the messages; loading adds them to those that are there.
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar.section("broadcast", 1);
+    archive_each<KeplerMessage>(ar, kepler_);
+    archive_each<GlonassMessage>(ar, glonass_);
+    ar(ionosphere_);
+  }
+
  private:
+  template <class Message, class Archive>
+  void archive_each(Archive& ar, const auto& lists) {
+    std::uint64_t count = 0;
+    for (const auto& list : lists) count += list.size();
+    ar(count);
+    if constexpr (Archive::loading) {
+      for (Message message; count > 0; --count) {
+        ar(message);
+        add(message);
+      }
+    } else {
+      for (const auto& list : lists) {
+        for (const Message& message : list) ar(message);
+      }
+    }
+  }
+
   void add(const KeplerMessage& message);
   void add(const GlonassMessage& message);
   // Both choose among the messages with this issue, if one is given.

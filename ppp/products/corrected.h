@@ -65,6 +65,11 @@ class CorrectedEphemeris : public Ephemeris {
   // Returns the age of the newest clock correction of any satellite; nothing if none ever came.
   std::optional<Duration> age() const;
 
+  // Saves the broadcast messages, and loads them as BroadcastEphemeris does: corrections are soon
+  // sent again.
+  void archive(auto& ar) { ar(broadcast_); }
+  static constexpr std::size_t usual_archive = 3 * 2 * usual_satellites * sizeof(KeplerMessage);
+
  private:
   struct Corrections {
     // These are the newest two, because an orbit arrives before its clock.

@@ -33,6 +33,18 @@ class BroadcastIonosphere {
   std::optional<NearestIonosphere> at(GpsTime t) const;
   std::optional<Duration> age(GpsTime t) const;
 
+  // Saves the coefficients; loading adds them to those that are there.
+  template <class Archive>
+  void archive(Archive& ar) {
+    std::vector<IonosphereMessage> saved;
+    if constexpr (Archive::loading) {
+      ar(saved);
+      for (const IonosphereMessage& message : saved) add(message);
+    } else {
+      ar(messages_);
+    }
+  }
+
  private:
   std::vector<IonosphereMessage> messages_;
 };

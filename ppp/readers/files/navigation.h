@@ -31,6 +31,11 @@ struct KeplerMessage {
   double accuracy = 0;      // m
   double health = 0;
   std::array<double, 2> group_delay{};  // s: TGD; Galileo's BGD E5a/E1, E5b/E1; BeiDou's TGD1, TGD2
+
+  void archive(auto& ar) {
+    ar(satellite, toc, toe, af0, af1, af2, iode, crs, delta_n, m0, cuc, e, cus, sqrt_a, cic, omega0,
+       cis, i0, crc, omega, omega_dot, i_dot, data_sources, accuracy, health, group_delay);
+  }
 };
 
 // A GlonassMessage contains position, velocity and lunisolar acceleration in PZ-90 at `toe`. Units
@@ -42,6 +47,10 @@ struct GlonassMessage {
   Eigen::Vector3d position, velocity, acceleration;
   int channel = 0;
   double health = 0;
+
+  void archive(auto& ar) {
+    ar(satellite, toe, minus_tau, gamma, position, velocity, acceleration, channel, health);
+  }
 };
 
 struct BroadcastMessages {

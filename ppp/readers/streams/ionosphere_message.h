@@ -11,6 +11,7 @@ namespace maploop::ppp {
 // These are GPS's alpha 0 to 3 and beta 0 to 3, in s and semicircles as in IS-GPS-200.
 struct Klobuchar {
   std::array<double, 8> values{};
+  void archive(auto& ar) { ar(values); }
   bool operator==(const Klobuchar&) const = default;
 };
 
@@ -18,6 +19,7 @@ struct Klobuchar {
 // degree and per degree squared, as in the OS SIS ICD.
 struct IonisationLevel {
   std::array<double, 3> values{};
+  void archive(auto& ar) { ar(values); }
   bool operator==(const IonisationLevel&) const = default;
 };
 
@@ -28,6 +30,7 @@ using IonosphereCoefficients = std::variant<Klobuchar, IonisationLevel>;
 struct IonosphereMessage {
   IonosphereCoefficients coefficients;
   GpsTime first{}, last{};
+  void archive(auto& ar) { ar(coefficients, first, last); }
 };
 
 }  // namespace maploop::ppp

@@ -14,7 +14,6 @@ namespace maploop::vehicle {
 namespace {
 
 constexpr auto relaxed = std::memory_order_relaxed;
-constexpr int layout = 6;  // of the archive
 // The filter of an earlier run is used for so long.
 constexpr Duration longest_away = std::chrono::minutes(10);
 
@@ -244,23 +243,35 @@ void PppStage::save_until(Time t, const std::stop_token& stop) {
   });
 }
 
+// What the next run can use, too.
+template <class Archive>
+void PppStage::archive_known(Archive& ar) {
+  ar.section(spec().name, 7);
+  ar(filter_);
+  bool receives = received_.has_value();
+  ar(receives);
+  if constexpr (Archive::loading) {
+    if (receives != received_.has_value()) ar.fail("other products than this run has");
+  }
+  if (received_) ar(*received_);
+}
+
 // Includes the results that become available after the cut: the run that resumes sends them. The
 // matcher that resumes sends the feedback that becomes available after the cut.
 template <class Archive>
 void PppStage::archive(Archive& ar, Time cut) {
-  ar.section(spec().name, layout);
+  archive_known(ar);
   std::vector<MapFeedback> held;
   std::copy_if(held_.begin(), held_.end(), std::back_inserter(held),
                [cut](const MapFeedback& f) { return f.available <= cut; });
-  ar(filter_, counts_, sent_, held, last_epoch_);
+  ar(counts_, sent_, held, last_epoch_);
   track_.archive(ar, cut);
   if constexpr (Archive::loading) held_ = std::move(held);
 }
 
 void PppStage::recall_saved(std::span<const std::uint8_t> saved) {
   ArchiveReader ar(saved);
-  ar.section(spec().name, layout);
-  ar(filter_);
+  archive_known(ar);
   filter_.count_anew();
   recalled_ = true;
 }
@@ -274,6 +285,7 @@ void PppStage::forget_outdated(ppp::GpsTime now) {
 
 std::size_t PppStage::saved_bytes() const {
   return ppp::MapAidedFilter::largest_archive + AntennaTrack::largest_archive +
+         (received_ ? ppp::CorrectedEphemeris::usual_archive : 0) +
          2 * ppp::usual_satellites * sizeof(PppSatellite) + 4096;
 }
 

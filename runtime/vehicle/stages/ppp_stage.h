@@ -37,8 +37,9 @@ class PppStage final : public GraphStage {
 
   void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
   std::size_t saved_bytes() const override;
-  // Takes the filter: its ambiguities hold as long as the receiver has kept its lock. It is
-  // forgotten if the first epoch is later by more than ten minutes, or earlier.
+  // Takes the filter, whose ambiguities hold as long as the receiver has kept its lock, and the
+  // broadcast messages that were received. The filter is forgotten if the first epoch is later by
+  // more than ten minutes, or earlier.
   void recall_saved(std::span<const std::uint8_t> saved) override;
   std::vector<UseWatch*> uses() override { return {&use_}; }
   // Epochs without a position, refused satellites and slips by their reasons, and restarts.
@@ -72,6 +73,8 @@ class PppStage final : public GraphStage {
   void forget_outdated(ppp::GpsTime now);
   void send(Sent& sent, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
+  template <class Archive>
+  void archive_known(Archive& ar);
   void load(ArchiveReader& ar) override { archive(ar, Time::max()); }
   template <class Archive>
   void archive(Archive& ar, Time cut);

@@ -115,6 +115,48 @@ TEST(LiveReceiver, GivesThePositionsOfTheSameObservationsInFiles) {
   EXPECT_GT(positions, count - 5);
 }
 
+// Of each epoch what a live vehicle sends, and the last that its ppp stage saved of itself.
+struct LiveRun {
+  std::vector<PppStatus> statuses;
+  Bytes saved;
+};
+
+LiveRun live_run(const std::string& sent, std::size_t epochs, const Bytes* recalled) {
+  maploop::testing::TcpServer receiver;
+  const VehicleConfig config = config_for(receiver);
+  Sensors sensors;
+  sensors.live = open_live_sensors(config);
+  MemoryBus bus;
+  LiveRun run;
+  Vehicle vehicle(config, {}, std::move(sensors), runtime::DataClock::live(), {&bus}, {});
+  vehicle.take_snapshots(milliseconds(100), [&](const Snapshot& snapshot) {
+    run.saved = *snapshot.part(stages::ppp.name);
+  });
+  if (recalled != nullptr) vehicle.recall(stages::ppp, *recalled);
+  vehicle.start();
+  EXPECT_TRUE(receiver.answer());
+  EXPECT_TRUE(receiver.send(sent));
+  EXPECT_TRUE(bus.wait_for("PPP_STATE", epochs));
+  std::this_thread::sleep_for(milliseconds(300));  // until it is saved
+  vehicle.stop();
+  vehicle.wait();
+  for (const auto& state : bus.decoded<maploop_lcm::ppp_state_t>("PPP_STATE")) {
+    run.statuses.push_back(from_lcm(state).status);
+  }
+  return run;
+}
+
+TEST(LiveReceiver, ARestartKnowsTheMessagesOfSatellitesThatWereReceived) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  std::string before = ephemerides();
+  for (std::size_t i = 0; i < 20; ++i) before += rawx(i);
+  const LiveRun first = live_run(before, 20, nullptr);
+  const std::string after = rawx(40) + rawx(41);
+  const LiveRun cold = live_run(after, 2, nullptr), warm = live_run(after, 2, &first.saved);
+  EXPECT_EQ(cold.statuses.at(0), PppStatus::none);
+  EXPECT_NE(warm.statuses.at(0), PppStatus::none);
+}
+
 TEST(LiveReceiver, ReportsWhatItReceives) {
   MAPLOOP_REQUIRE_REAL_DATA();
   maploop::testing::TcpServer receiver;
