@@ -17,6 +17,16 @@ struct StereoCalibration {
   void archive(auto& ar) { ar(width, height, fx, fy, cx, cy, baseline, T_body_cam); }
 };
 
+// Says what there is to combine with fixes.
+struct FusedSensors {
+  bool motion = false;  // of a camera, a LiDAR or wheels
+  bool inertial = false;
+  bool wheels = false;  // their speed is the only motion
+  bool mems = true;     // the grade of the inertial unit is not known
+
+  void archive(auto& ar) { ar(motion, inertial, wheels, mems); }
+};
+
 // This is what the estimators use of a vehicle's sensors. Unknown values default to those of no
 // particular car.
 struct VehicleCalibration {
@@ -26,9 +36,12 @@ struct VehicleCalibration {
   double climb_offset = 0.0;           // rad, direction of travel above body x, by mounting
   double climb_offset_sigma = 0.0175;  // rad (1 deg), of climb_offset
   double beam_elevation = 0.0;         // rad, the LiDAR's beams are higher than calibrated
+  FusedSensors fused{true, true, true, false};
+  bool peer_reference = false;  // the reference is another fusion of the same sensors, not a truth
 
   void archive(auto& ar) {
-    ar(stereo, T_body_velo, rear_axle_distance, climb_offset, climb_offset_sigma, beam_elevation);
+    ar(stereo, T_body_velo, rear_axle_distance, climb_offset, climb_offset_sigma, beam_elevation,
+       fused, peer_reference);
   }
 };
 

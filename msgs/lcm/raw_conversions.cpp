@@ -24,6 +24,11 @@ void convert(auto copy, Is<VehicleCalibration> auto& calibration, auto& m) {
   copy(calibration.climb_offset, m.climb_offset);
   copy(calibration.climb_offset_sigma, m.climb_offset_sigma);
   copy(calibration.beam_elevation, m.beam_elevation);
+  copy(calibration.fused.motion, m.motion);
+  copy(calibration.fused.inertial, m.inertial);
+  copy(calibration.fused.wheels, m.wheels);
+  copy(calibration.fused.mems, m.mems);
+  copy(calibration.peer_reference, m.peer_reference);
 }
 MAPLOOP_CONVERSIONS(VehicleCalibration, maploop_lcm::calibration_t)
 

@@ -171,6 +171,16 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
   last_stamp_ = frames.last;
 }
 
+std::optional<FusedSensors> LogRecording::fused_sensors_of(const std::filesystem::path& log) {
+  const auto reader = open_log(log, own_schema(), channel_names::calibration);
+  maploop_lcm::calibration_t message{};
+  while (reader->next() == LogEvents::Item::event) {
+    if (reader->event().channel != channel_names::calibration) continue;
+    if (checked_decode(own_schema(), reader->event().data, message)) return from_lcm(message).fused;
+  }
+  return std::nullopt;
+}
+
 template <class T>
 std::unique_ptr<Source<T>> LogRecording::source(std::string_view channel) const {
   if (!channels_.contains(channel)) return nullptr;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -29,6 +30,9 @@ class LogRecording {
   // Reads through the whole log once. Throws std::runtime_error that names the log and states what
   // to do: not readable, damaged, without a calibration, without any sensor.
   explicit LogRecording(const std::filesystem::path& log);
+
+  // Returns what the first calibration of a log says; nothing if it has none, or is no log.
+  static std::optional<FusedSensors> fused_sensors_of(const std::filesystem::path& log);
 
   const VehicleCalibration& calibration() const { return calibration_; }
 

@@ -186,7 +186,7 @@ void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& 
   if (map != nullptr && result.end) result.map = map_use(*result.end, pass, *map);
   if (map != nullptr && recording.driven_links)
     result.links = links_score(pass, *recording.driven_links, *map, from);
-  result.peer_reference = recording.peer_reference;
+  result.peer_reference = recording.calibration.peer_reference;
   result.outage_ends = outage_ends(pass.track, recording, reference);
   const Eigen::Isometry3d& T_body_cam = recording.calibration.stereo.T_body_cam;
   const auto score_cameras = [&](const TrajectoryCollector::Reference& pose) {

@@ -47,11 +47,14 @@ Recording open_bag(const std::filesystem::path& path, const VehicleConfig& confi
   const sensors::BagVehicle vehicle{raw_cameras(config), config.vehicle.lidar.calibration};
   const sensors::BagLimits limits{config.replay.camera_readout, config.replay.max_pair_skew,
                                   config.replay.max_turn};
-  const auto bag = std::make_shared<sensors::BagRecording>(
-      path, contents != nullptr ? *contents : sensors::summarize(path), config.bag, vehicle,
-      limits);
+  const KnownContents known =
+      contents != nullptr ? contents
+                          : std::make_shared<const sensors::BagSummary>(sensors::summarize(path));
+  const auto bag =
+      std::make_shared<sensors::BagRecording>(path, *known, config.bag, vehicle, limits);
   Recording recording;
   recording.calibration = bag->calibration();
+  recording.calibration.fused = fused_sensors_of_bag(path, *known, config.bag);
   recording.first_stamp = bag->first_stamp();
   recording.last_stamp = bag->last_stamp();
   recording.images = bag->frame_count();

@@ -7,14 +7,6 @@
 
 namespace maploop::vehicle {
 
-// Says what there is to combine with fixes.
-struct FusedSensors {
-  bool motion = false;  // of a camera, a LiDAR or wheels
-  bool inertial = false;
-  bool wheels = false;  // their speed is the only motion
-  bool mems = true;     // the grade of the inertial unit is not known
-};
-
 // Throws std::runtime_error naming what is wrong with the choice of topics.
 FusedSensors fused_sensors_of_bag(const std::filesystem::path& path,
                                   const sensors::BagSummary& contents,

@@ -134,6 +134,7 @@ Recording open_folder(const fs::path& folder, const VehicleConfig& config) {
   const auto epochs = observations_of(*drive, config);
   Recording recording;
   recording.calibration = drive->calibration();
+  if (const auto fused = fused_sensors_of_folder(folder)) recording.calibration.fused = *fused;
   recording.first_stamp = drive->first_stamp();
   recording.last_stamp = drive->last_stamp();
   recording.images = drive->frame_count();

@@ -29,17 +29,13 @@ namespace {
 
 template <class Opened>
 Recording make_recording(const Opened& opened, std::function<Sensors(Time)> sensors) {
-  return {opened.calibration(),
-          opened.first_stamp(),
-          opened.last_stamp(),
-          opened.frame_count(),
-          std::move(sensors),
-          {},
-          {},
-          {},
-          false,
-          {},
-          {}};
+  Recording recording;
+  recording.calibration = opened.calibration();
+  recording.first_stamp = opened.first_stamp();
+  recording.last_stamp = opened.last_stamp();
+  recording.images = opened.frame_count();
+  recording.sensors = std::move(sensors);
+  return recording;
 }
 
 // Returns the wheel odometer's parameters if the configuration uses a wheel speed.
@@ -122,6 +118,13 @@ Recording open_gnss(const std::filesystem::path& path, const VehicleConfig& conf
     return s;
   };
   return recording;
+}
+
+// Any file that is nothing else.
+bool is_log(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) && !is_capture(path) &&
+         !is_gnss_drive(path) && !sensors::OdometrySequence::is_named(path);
 }
 
 Recording open_any(const std::filesystem::path& path, const VehicleConfig& config,
@@ -216,6 +219,8 @@ KnownContents fit_to_recording(VehicleConfig& config, const std::filesystem::pat
     there = fused_sensors_of_bag(path, *contents, config.bag);
   } else if (is_table_drive(path)) {
     there = fused_sensors_of(*find_table_mapping(path));
+  } else if (is_log(path)) {
+    there = sensors::LogRecording::fused_sensors_of(path);
   } else {
     there = fused_sensors_of_folder(path);
   }

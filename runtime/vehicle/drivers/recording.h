@@ -46,7 +46,6 @@ struct Recording {
   // Returns every fix, also those that the outages take away, to score with. Null: they are made
   // from the reference, which scores better.
   std::function<std::unique_ptr<sensors::Source<GnssFix>>()> fixes;
-  bool peer_reference = false;  // the reference is another fusion of the same sensors, not a truth
   std::optional<DrivenLinksFile> driven_links;  // if the recording has one
   std::vector<std::string> notes;  // sentences for the user: what is not used, what was assumed
 };
@@ -75,10 +74,10 @@ struct Recording {
 Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config,
                          const KnownContents& contents = nullptr);
 
-// Chooses what tables and bags need, where the configuration file has not said otherwise: without
-// odometry and wheels they are run as GNSS+RI, or as GNSS without an inertial unit, which is of
-// grade mems. Other recordings need nothing. Returns what open_recording() of the same path can
-// use. Throws as that does.
+// Chooses what tables, bags and logs of them need, where the configuration file has not said
+// otherwise: without odometry and wheels they are run as GNSS+RI, or as GNSS without an inertial
+// unit, which is of grade mems. Other recordings need nothing. Returns what open_recording() of the
+// same path can use. Throws as that does.
 KnownContents fit_to_recording(VehicleConfig& config, const std::filesystem::path& path);
 
 // Returns the outages that the configuration asks for. Throws std::runtime_error if it does not use

@@ -24,7 +24,8 @@ Recording open_tables(const std::filesystem::path& folder, const VehicleConfig& 
   recording.first_stamp = tables->first_stamp();
   recording.last_stamp = tables->last_stamp();
   recording.images = tables->fix_count();
-  recording.peer_reference = mapping->reference.peer;
+  recording.calibration.peer_reference = mapping->reference.peer;
+  recording.calibration.fused = fused_sensors_of(*mapping);
   if (tables->has_gnss()) recording.fixes = [tables] { return tables->gnss(); };
   recording.calibration.rear_axle_distance = sensors::TableRecording::cabin_ahead;
   recording.delays = delays_of(config);
