@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "mapmatch/reach_gate.h"
 #include "msgs/frames.h"
 
 namespace maploop::mapmatch {
@@ -46,6 +47,7 @@ DoubtCollector::DoubtCollector(const RoadNetwork& network, const MatchParameters
 }
 
 std::span<const MapDoubt> DoubtCollector::add(const LinkMatch& match, const VehicleFix& fix) {
+  if (match.refusal == FixRefusal::out_of_reach) return finish();
   found_count_ = 0;
   if (match.refusal != FixRefusal::none) return {};
   const Step step = advance(fix);
@@ -68,7 +70,9 @@ std::span<const MapDoubt> DoubtCollector::finish() {
 DoubtCollector::Step DoubtCollector::advance(const VehicleFix& fix) {
   const Eigen::Vector2d place = network_->to_local(fix.position);
   const double interval = to_seconds(fix.stamp - stamp_);
-  if (!started_ || fix.stamp - stamp_ > max_gap_) {
+  const double sigma = std::sqrt(0.5 * fix.covariance.trace());
+  if (!started_ || fix.stamp - stamp_ > max_gap_ ||
+      !within_reach((place - place_).norm(), interval, sigma)) {
     if (started_) finish();
     started_ = true;
     stamp_ = fix.stamp;

@@ -51,18 +51,25 @@ const MatchResult& Matcher::add(const VehicleFix& fix) {
   if (result_.refusal == FixRefusal::none && started_ && fix.stamp <= result_.stamp)
     result_.refusal = FixRefusal::not_later;
   if (result_.refusal != FixRefusal::none) return result_;
-  if (!started_ || to_seconds(fix.stamp - result_.stamp) > parameters_.max_gap) restart();
+  const Eigen::Vector2d place = network_->to_local(fix.position);
+  const double sigma = std::sqrt(0.5 * fix.covariance.trace());
+  const bool gap = !started_ || to_seconds(fix.stamp - result_.stamp) > parameters_.max_gap;
+  if (gap) gate_.reset();
+  const ReachGate::Found found = gate_.judge(fix.stamp, place, sigma);
+  if (found == ReachGate::Found::stray) {
+    result_.refusal = FixRefusal::out_of_reach;
+    return result_;
+  }
+  if (gap || found == ReachGate::Found::moved) restart();
   started_ = true;
   result_.stamp = fix.stamp;
 
-  const Eigen::Vector2d place = network_->to_local(fix.position);
   const Motion motion = motion_.add(fix, place, parameters_);
   odometer_ += motion.distance;
   travelled_ += motion.distance;
   find_near_links(*network_, place, ErrorEllipse(fix.covariance, region_margin), near_);
   if (parameters_.paths) paths_.step({place, fix.covariance, motion}, near_);
 
-  const double sigma = std::sqrt(0.5 * fix.covariance.trace());
   set_anchor(sigma);
   const RuleContext context{
       *network_,

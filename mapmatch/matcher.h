@@ -13,6 +13,7 @@
 #include "mapmatch/match_result.h"
 #include "mapmatch/parameter_table.h"
 #include "mapmatch/path_filter.h"
+#include "mapmatch/reach_gate.h"
 #include "mapmatch/rule_bases.h"
 #include "mapmatch/rule_inputs.h"
 #include "mapmatch/vehicle_motion.h"
@@ -79,6 +80,7 @@ class Matcher {
   NearLinks near_;
   MatchResult result_;
   bool started_ = false;
+  ReachGate gate_;
   LastMatch last_;
   double travelled_ = 0.0;  // m since last_
   DirectedLink winner_;     // link that initial matching found so far
@@ -94,9 +96,9 @@ void Matcher::archive(Archive& ar) {
   archive_same_number(ar, "links of the road network", network_->size());
   archive_same_number(ar, "vertices of the road network", network_->data().vertices.size());
   archive_same_parameters(ar, parameters_);
-  ar(motion_, paths_, started_, result_.stamp, result_.phase, last_.there, last_.link, last_.along,
-     last_.has_anchor, last_.anchor, travelled_, winner_, has_winner_, agreed_, odometer_, anchors_,
-     next_anchor_);
+  ar(motion_, paths_, started_, gate_, result_.stamp, result_.phase, last_.there, last_.link,
+     last_.along, last_.has_anchor, last_.anchor, travelled_, winner_, has_winner_, agreed_,
+     odometer_, anchors_, next_anchor_);
   if constexpr (Archive::loading) {
     if (last_.link.link >= network_->size() && network_->size() > 0)
       ar.fail("the last link does not exist");

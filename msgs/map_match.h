@@ -28,12 +28,20 @@ constexpr auto names_of(MatchPhase) {
 }
 
 // States why a fix was not used.
-enum class FixRefusal : std::uint8_t { none, not_later, not_finite, bad_covariance, no_position };
+enum class FixRefusal : std::uint8_t {
+  none,
+  not_later,
+  not_finite,
+  bad_covariance,
+  no_position,
+  out_of_reach
+};
 
 constexpr auto names_of(FixRefusal) {
-  return names_up_to<FixRefusal::no_position>(
+  return names_up_to<FixRefusal::out_of_reach>(
       {"none", "not later than the fix before", "a value is not finite",
-       "the covariance is not positive", "there is no position yet"});
+       "the covariance is not positive", "there is no position yet",
+       "farther from the fix before than a vehicle can drive"});
 }
 
 // Names the rule base by which a candidate was judged.

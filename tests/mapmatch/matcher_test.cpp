@@ -326,6 +326,31 @@ TEST(Matcher, FixesThatCannotBeUsedAreRefusedWithAReasonAndChangeNothing) {
   EXPECT_EQ(matcher.add(fixes[10]).refusal, FixRefusal::none);
 }
 
+TEST(Matcher, AFixOutOfReachIsRefusedAndTheNextOneIsNot) {
+  const RoadNetwork network = crossing().network();
+  Matcher matcher(network, rules(), {});
+  auto fixes = drive({{-250, 0}, {-50, 0}}, 10.0, 1.0);
+  const auto undisturbed = ways(matcher, fixes);
+  VehicleFix& wild = fixes[8];
+  wild.position.latitude += radians(0.01);  // 1.1 km
+  Matcher disturbed(network, rules(), {});
+  for (std::size_t i = 0; i < fixes.size(); ++i) {
+    const MatchResult& result = disturbed.add(fixes[i]);
+    EXPECT_EQ(result.refusal, i == 8 ? FixRefusal::out_of_reach : FixRefusal::none);
+    EXPECT_EQ(result.on_road, undisturbed[i] != 0) << i;
+  }
+}
+
+TEST(Matcher, WhereSeveralFixesAgreeTheVehicleIsThere) {
+  const RoadNetwork network = crossing().network();
+  Matcher matcher(network, rules(), {});
+  auto fixes = drive({{-250, 0}, {-50, 0}}, 10.0, 1.0);
+  for (std::size_t i = 0; i < 3; ++i) fixes[i].position = {};  // a receiver without a position
+  for (std::size_t i = 0; i < fixes.size(); ++i) {
+    EXPECT_EQ(matcher.add(fixes[i]).refusal, i == 3 ? FixRefusal::out_of_reach : FixRefusal::none);
+  }
+}
+
 TEST(Matcher, ReasonsStateWhatContradictsTheOtherStreet) {
   const RoadNetwork network = crossing().network();
   Matcher matcher(network, rules(), {});

@@ -197,7 +197,7 @@ TEST(LcmConversions, ConstantsAgree) {
   EXPECT_EQ(1 << static_cast<int>(MotionDirection::along), +maploop_lcm::lidar_motion_t::ALONG);
   EXPECT_EQ(1 << static_cast<int>(MotionDirection::yaw), +maploop_lcm::lidar_motion_t::YAW);
   EXPECT_EQ(static_cast<int>(MatchPhase::off_road), +maploop_lcm::map_match_t::OFF_ROAD);
-  EXPECT_EQ(static_cast<int>(FixRefusal::no_position), +maploop_lcm::map_match_t::NO_POSITION);
+  EXPECT_EQ(static_cast<int>(FixRefusal::out_of_reach), +maploop_lcm::map_match_t::OUT_OF_REACH);
   EXPECT_EQ(static_cast<int>(RuleBase::junction), +maploop_lcm::map_candidate_t::JUNCTION);
   EXPECT_EQ(static_cast<int>(Verdict::refused), +maploop_lcm::realtime_setting_t::REFUSED);
   EXPECT_EQ(static_cast<int>(Verdict::unknown), +maploop_lcm::realtime_setting_t::UNKNOWN);

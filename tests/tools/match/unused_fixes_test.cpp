@@ -48,8 +48,9 @@ TEST_F(UnusedFixes, SingleBadFixesAreCountedByTheirReason) {
   const MatchedTrack track = matched(drive);
   EXPECT_THAT(unused_fixes(track, network),
               ElementsAre(Pair("a value is not a number", 1),
+                          Pair("farther from the fix before than a vehicle can drive", 1),
                           Pair("not a latitude and a longitude in degrees", 1),
-                          Pair("not later than the fix before", 1), Pair("outside of the map", 1)));
+                          Pair("not later than the fix before", 1)));
   EXPECT_EQ(why_unusable(track, network), std::nullopt);
 }
 
