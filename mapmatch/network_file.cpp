@@ -17,13 +17,12 @@ namespace {
 constexpr std::string_view section = "road network";
 constexpr std::uint32_t version = 2;
 
-// Returns whether a file begins with an archive's signature.
-bool is_archive(const std::filesystem::path& file) {
+}  // namespace
+
+bool is_network_file(const std::filesystem::path& file) {
   constexpr std::string_view signature = "maploop\n";
   return std::filesystem::is_regular_file(file) && read_head(file, signature.size()) == signature;
 }
-
-}  // namespace
 
 void save_network(const std::filesystem::path& file, const NetworkData& network) {
   ArchiveWriter writer;
@@ -61,7 +60,7 @@ NetworkData open_network(const std::filesystem::path& file, const OsmOptions& op
     return build_network(
         TiledMap(file).read(options.box.value_or(GeographicBox{}), options.max_nodes));
   }
-  if (!is_archive(file)) return build_network(read_osm(file, options));
+  if (!is_network_file(file)) return build_network(read_osm(file, options));
   if (options.box) {
     throw std::runtime_error("cannot read the part of " + file.string() +
                              " inside a box: a network file is read whole; give the map that it "

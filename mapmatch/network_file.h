@@ -11,6 +11,9 @@
 
 namespace maploop::mapmatch {
 
+// Returns whether the file begins as an archive.
+bool is_network_file(const std::filesystem::path& file);
+
 // Throws std::runtime_error, which names the file, if it cannot be written.
 void save_network(const std::filesystem::path& file, const NetworkData& network);
 // Throws std::runtime_error, which names the file and the error.

@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "mapmatch/network_file.h"
 #include "mapmatch/osm_tags.h"
+#include "mapmatch/tiled_map.h"
 
 namespace maploop::mapmatch {
 namespace {
@@ -35,6 +37,8 @@ void read_map_file(const std::filesystem::path& file,
   if (!std::filesystem::exists(file)) throw fail("there is no such file");
   if (!std::filesystem::is_regular_file(file)) throw fail("it is not a regular file");
   if (std::filesystem::file_size(file) == 0) throw fail("it is empty");
+  if (is_network_file(file) || is_tiled_map(file))
+    throw fail("it was made by 'maploop map build'; give the map that it was made from");
   try {
     read(osmium::io::File(file.string()));
   } catch (const std::bad_alloc&) {

@@ -1,6 +1,8 @@
 #include "tools/command/match_input_options.h"
 
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "mapmatch/map_area.h"
 #include "mapmatch/network_file.h"
@@ -17,10 +19,15 @@ mapmatch::RoadNetwork MatchInputOptions::network(
   if (mapmatch::is_tiled_map(map)) {
     const mapmatch::TiledMap tiled(map);
     std::vector<Geodetic> places;
-    if (box.empty()) {
-      for (const auto& file : tracks)
+    std::optional<std::string> unreadable;
+    for (const auto& file : box.empty() ? tracks : std::vector<std::filesystem::path>()) {
+      try {
         for (const mapmatch::VehicleFix& fix : track(file)) places.push_back(fix.position);
+      } catch (const std::runtime_error& e) {
+        unreadable = e.what();  // who matches the track says it
+      }
     }
+    if (places.empty() && unreadable) throw std::runtime_error(*unreadable);
     const auto tiles = box.empty() ? tiled.tiles_about(places, margin)
                                    : tiled.tiles_within({box[0], box[1], box[2], box[3]});
     if (tiles.empty()) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -50,8 +51,17 @@ int evaluate_match(const EvaluateMatchOptions& options) {
   if (!options.map.empty()) {
     const match::SegmentLinks links(mapmatch::RoadNetwork(mapmatch::open_network(options.map)));
     links.look_up(labels);
-    for (match::TimedMatch& m : matches)
+    bool found = false;
+    for (match::TimedMatch& m : matches) {
       if (m.matched.way_id) m.matched.link = links.find(m.matched.node_a, m.matched.node_b);
+      found |= m.matched.link.has_value();
+    }
+    if (!found) {
+      throw std::runtime_error("no match of " + options.matched.string() + " is on a link of " +
+                               options.map.string() +
+                               ": is it the map that was matched to, and has the file the columns "
+                               "node_a and node_b?");
+    }
   }
   std::vector<Time> stamps;
   if (!options.frames.empty()) {
@@ -79,7 +89,11 @@ int evaluate_match(const EvaluateMatchOptions& options) {
   }
   match::MatchScore score;
   score.add(matched, rows, labels);
-  std::cout << match::to_text(score) << match::to_text(score.reliability);
+  const std::size_t frames = std::set(rows.begin(), rows.end()).size();
+  std::cout << fmt::format("{} of {} labelled frames have a row in {}\n", frames, labels.size(),
+                           options.matched.string())
+            << match::to_text(score)
+            << match::to_text(score.reliability, options.map.empty() ? "way" : "link");
   if (!options.json.empty()) write_json_file(options.json, match::to_json(score));
   if (!options.csv.empty()) evaluation::write_text(options.csv, table);
   return 0;

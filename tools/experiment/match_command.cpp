@@ -157,6 +157,13 @@ int match_experiment(const MatchExperimentOptions& options) {
   const mapmatch::RuleBases rules = options.rule_bases();
   const auto all = matchers(network, rules, options.parameters(), options.beta);
   const std::vector<Case> cases = run_all(options, network, all);
+  const auto on_a_road = [](const Scores& s) { return s.score.all.matched > 0; };
+  if (std::none_of(cases.begin(), cases.end(), [&](const Case& c) {
+        return std::any_of(c.scores.begin(), c.scores.end(), on_a_road);
+      })) {
+    throw std::runtime_error("no fix of the drives is on a road of " + options.map.string() +
+                             ": is it the map of this place?");
+  }
   using experiments::number;
   std::cout << as_text(table_of("All fixes: % on the right way", all, cases, [](const Scores& s) {
     return number(100.0 * s.score.all.share(), 2);

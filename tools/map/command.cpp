@@ -192,6 +192,10 @@ int tiled_info(const MapOptions& options) {
 int info(const MapOptions& options) {
   if (options.box.empty() && mapmatch::is_tiled_map(options.input)) return tiled_info(options);
   const OpenedNetwork opened = open(options);
+  if (opened.network.size() == 0) {
+    throw std::runtime_error(options.input.string() +
+                             (options.box.empty() ? " has no roads" : " has no roads in the box"));
+  }
   nlohmann::json described = describe(opened.network);
   print(described, opened.milliseconds);
   described["read_ms"] = opened.milliseconds;

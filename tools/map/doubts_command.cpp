@@ -5,18 +5,19 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "mapmatch/matcher.h"
+#include "mapmatch/doubt_collector.h"
 #include "mapmatch/reasons.h"
 #include "tools/command/commands.h"
 #include "tools/command/match_input_options.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/progress.h"
 #include "tools/match/doubts_file.h"
-#include "tools/match/match_score.h"
+#include "tools/match/track_matching.h"
 
 namespace maploop::tools {
 namespace {
@@ -27,6 +28,19 @@ struct DoubtOptions : MatchInputOptions {
   double min_probability = 0.5;
 };
 
+void add_doubts(const match::MatchedTrack& track, const match::TrackMatching& matching,
+                match::DoubtPool& pool) {
+  mapmatch::DoubtCollector collector(matching.network, matching.parameters);
+  const auto take = [&](std::span<const MapDoubt> some) {
+    for (const MapDoubt& doubt : some) pool.add(doubt, track.name);
+  };
+  for (std::size_t i = 0; i < track.fixes.size(); ++i) {
+    take(collector.add(track.results[i], track.fixes[i]));
+  }
+  take(collector.finish());
+}
+
+// A track that cannot be used is said, and does not stop the others.
 int find_doubts(const DoubtOptions& options) {
   const mapmatch::RoadNetwork network = options.network(options.tracks);
   const mapmatch::RuleBases rules = options.rule_bases();
@@ -36,33 +50,41 @@ int find_doubts(const DoubtOptions& options) {
         "paths = false leaves the rules alone, which give no probabilities of a link: doubts need "
         "the paths");
   }
+  const match::TrackMatching matching{network, rules, parameters};
   match::DoubtPool pool(network);
-  std::size_t fixes = 0, on_road = 0;
+  std::size_t fixes = 0, on_road = 0, done = 0;
+  std::vector<std::string> unusable;
   Progress progress("tracks");
-  std::size_t done = 0;
   for (const std::filesystem::path& file : options.tracks) {
-    mapmatch::Matcher matcher(network, rules, parameters);
-    std::vector<MapDoubt> doubts;
-    const auto matched = match::match_track(matcher, options.track(file), {.doubts = &doubts});
-    for (const MapDoubt& doubt : doubts) pool.add(doubt, file.string());
-    fixes += matched.size();
-    on_road += static_cast<std::size_t>(std::count_if(
-        matched.begin(), matched.end(), [](const match::MatchedFix& m) { return m.way_id; }));
+    try {
+      const auto track = matching.match(options.track(file), file.string(), nullptr);
+      if (const auto why = match::why_unusable(track, network))
+        throw std::runtime_error(file.string() + ": " + *why);
+      add_doubts(track, matching, pool);
+      fixes += track.fixes.size();
+      on_road += static_cast<std::size_t>(
+          std::count_if(track.results.begin(), track.results.end(),
+                        [](const mapmatch::MatchResult& r) { return r.on_road; }));
+    } catch (const std::exception& e) {
+      unusable.emplace_back(e.what());
+    }
     progress.at(static_cast<double>(++done), static_cast<double>(options.tracks.size()));
   }
-  if (on_road == 0) {
-    throw std::runtime_error("no fix of the tracks is on a road of " + options.map.string() +
-                             ": is it the map of this area? 'maploop match' says why");
-  }
+  for (const std::string& why : unusable) std::cerr << "maploop: " << why << '\n';
+  const std::size_t used = options.tracks.size() - unusable.size();
+  if (used == 0) throw std::runtime_error("none of the tracks can be used");
   const auto found = pool.likelier_than(options.min_probability);
-  std::cout << fmt::format("{} fixes of {} tracks, {} on a road; {} doubts\n", fixes,
-                           options.tracks.size(), on_road, found.size());
+  std::cout << fmt::format("{} fixes of {} tracks, {} on a road; {} doubts\n", fixes, used, on_road,
+                           found.size());
   for (const match::PooledDoubt& pooled : found) {
     std::cout << fmt::format("{:5.1f} % by {} of {}: {}\n", 100.0 * pooled.doubt.probability,
-                             pooled.drives.size(), options.tracks.size(),
-                             explanation(pooled.doubt, network));
+                             pooled.drives.size(), used, explanation(pooled.doubt, network));
   }
   if (!options.output.empty()) match::write_doubts(options.output, found, network);
+  if (!unusable.empty()) {
+    throw std::runtime_error(
+        fmt::format("{} of {} tracks could not be used", unusable.size(), options.tracks.size()));
+  }
   return 0;
 }
 

@@ -65,6 +65,11 @@ void print_score(const match::MatchedTrack& track, const mapmatch::RoadNetwork& 
   }
   match::MatchScore score;
   auto driven = match::read_labels(labels);
+  if (!driven.empty() && driven.rbegin()->first >= track.fixes.size()) {
+    std::cerr << "maploop: " << labels.string() << " numbers rows up to " << driven.rbegin()->first
+              << ", and the track has " << track.fixes.size()
+              << ": are they the labels of this track?\n";
+  }
   match::SegmentLinks(network).look_up(driven);
   score.add(matched, rows, driven);
   const match::RouteScore route = match::score_route(track, rows, driven, network);

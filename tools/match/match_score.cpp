@@ -199,8 +199,8 @@ double Reliability::calibration_error() const {
   return count > 0.0 ? sum / count : 0.0;
 }
 
-std::string to_text(const Reliability& r) {
-  std::string text = "  P(link) said, mean -> share on the right way (fixes)\n";
+std::string to_text(const Reliability& r, std::string_view what) {
+  std::string text = fmt::format("  P(link) said, mean -> share on the right {} (fixes)\n", what);
   for (std::size_t k = 0; k < r.fixes.size(); ++k) {
     if (r.fixes[k] == 0) continue;
     const auto [said, right] = said_and_right(r, k);

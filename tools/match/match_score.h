@@ -132,9 +132,10 @@ MatchScore score_matches(const std::vector<TimedMatch>& matches, const std::vect
                          const Labels& labels);
 
 // Return the share of fixes on the right way and the coverage, of all labels and of certain ones;
-// and a table of the mean P(link) and the share that was right; and both as JSON.
+// and a table of the mean P(link) and the share that was right, of ways or links as `what` says;
+// and both as JSON.
 std::string to_text(const MatchScore& score);
-std::string to_text(const Reliability& reliability);
+std::string to_text(const Reliability& reliability, std::string_view what = "way");
 nlohmann::json to_json(const MatchScore& score);
 
 }  // namespace maploop::match

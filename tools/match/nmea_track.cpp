@@ -16,6 +16,7 @@ using mapmatch::unknown;
 using sensors::NmeaSentence;
 
 constexpr double knot = 1852.0 / 3600.0;  // m/s
+constexpr Duration half_a_day = std::chrono::hours(12);
 
 // Returns the place that begins at a field: latitude, hemisphere, longitude, hemisphere.
 Geodetic place(const NmeaSentence& s, std::size_t first) {
@@ -66,6 +67,10 @@ class NmeaTrackReader {
     fix.position.latitude = fix.position.longitude = unknown;
     fix.covariance = options_.sigma * options_.sigma * Eigen::Matrix2d::Identity();
     fix.stamp = stamp(time);
+    if (!track_.empty() && fix.stamp + half_a_day < track_.back().stamp) {
+      date_ += 2 * half_a_day;  // GGA has no date: it is after midnight
+      fix.stamp = stamp(time);
+    }
     keep(fix, name_, track_);
     return track_.back();
   }

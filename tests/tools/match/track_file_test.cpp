@@ -97,8 +97,51 @@ TEST(GpxTrack, TrackPointsWithTheirExtensions) {
   EXPECT_EQ(track[1].stamp - track[0].stamp, std::chrono::milliseconds(1500));
   EXPECT_THAT(refusal([&] { parse_gpx_track("<trkpt lat=\"1\" lon=\"2\"/>", "a.gpx", {}); }),
               HasSubstr("track point 1: no time"));
-  EXPECT_THAT(refusal([&] { parse_gpx_track(gpx.substr(0, 90), "a.gpx", {}); }),
-              HasSubstr("does not end"));
+}
+
+std::string gpx_of(const std::string& points) {
+  return "<gpx><trk><trkseg>" + points + "</trkseg></trk></gpx>";
+}
+
+std::string gpx_point(const std::string& second) {
+  return "<trkpt lat=\"49.1\" lon=\"8.2\"><time>2020-01-02T03:04:" + second + "Z</time></trkpt>";
+}
+
+TEST(GpxTrack, IsReadAsXml) {
+  const std::string content =
+      "<!-- <trkpt lat=\"1\" lon=\"2\"/> --><g:trkpt\tlat='49.1'\nlon='8.2'><g:time> "
+      "2020-01-02T03:04:05Z </g:time></g:trkpt>";
+  EXPECT_EQ(parse_gpx_track(gpx_of(content), "a.gpx", {}).size(), 1u);
+}
+
+TEST(GpxTrack, AFileThatWasCutIsRefused) {
+  const std::string gpx = gpx_of(gpx_point("05") + gpx_point("06"));
+  for (std::size_t size = 1; size < gpx.size(); ++size) {
+    EXPECT_THAT(refusal([&] { parse_gpx_track(gpx.substr(0, size), "a.gpx", {}); }),
+                HasSubstr("was it cut"));
+  }
+  EXPECT_THAT(refusal([&] {
+                parse_gpx_track(gpx_of("<trkpt lat='1' lon='2'>" + gpx_point("06")), "a.gpx", {});
+              }),
+              HasSubstr("track point 2: the point before it does not end"));
+}
+
+TEST(GpxTrack, SegmentsAreInTheOrderOfTheirTime) {
+  const std::string gpx = gpx_of(gpx_point("25") + gpx_point("26") + "</trkseg><trkseg>" +
+                                 gpx_point("05") + gpx_point("06") + "</trkseg><trkseg>");
+  const Track track = parse_gpx_track(gpx, "a.gpx", {});
+  ASSERT_EQ(track.size(), 4u);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_LT(track[i - 1].stamp, track[i].stamp);
+}
+
+TEST(NmeaTrack, AfterMidnightItIsTheNextDayAlsoWithoutADate) {
+  const Track track = parse_nmea_track(
+      "$GPGGA,235959.00,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,\r\n"
+      "$GPGGA,000000.00,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,\r\n"
+      "$GPGGA,000001.00,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,\r\n",
+      "a.nmea", {});
+  ASSERT_EQ(track.size(), 3u);
+  EXPECT_EQ(track[2].stamp - track[0].stamp, std::chrono::seconds(2));
 }
 
 TEST(NmeaTrack, RmcGgaAndGstOfOneTimeAreOneFix) {
