@@ -1,7 +1,9 @@
 #include "tools/command/output_check.h"
 
-#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,18 +13,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = "output";
+// Of the validators that mark an output, by OutputName.
+constexpr std::array marks{"output", "output after a colon", "output with .ppp"};
 
 struct Named {
   std::string option, value;
 };
 
-bool is_output(CLI::Option& option) {
-  try {
-    return option.get_validator(mark) != nullptr;
-  } catch (const CLI::OptionNotFound&) {
-    return false;
+std::optional<OutputName> output_name(CLI::Option& option) {
+  // An option that also names a second file has the first mark, too.
+  for (std::size_t i = marks.size(); i-- > 0;) {
+    try {
+      if (option.get_validator(marks[i]) != nullptr) return static_cast<OutputName>(i);
+    } catch (const CLI::OptionNotFound&) {
+    }
   }
+  return std::nullopt;
+}
+
+std::vector<std::string> files_of(const std::string& value, OutputName name) {
+  if (name == OutputName::after_colon) return {value.substr(value.find(':') + 1)};
+  if (name == OutputName::with_ppp) return {value, value + ".ppp"};
+  return {value};
 }
 
 // Whether both name one file, which need not be there yet.
@@ -43,18 +55,24 @@ bool same_file(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-CLI::Validator output_place() {
-  return CLI::Validator([](std::string&) { return std::string{}; }, "", mark);
+CLI::Validator output_place(OutputName name) {
+  return CLI::Validator([](std::string&) { return std::string{}; }, "",
+                        marks[static_cast<std::size_t>(name)]);
 }
 
 void check_outputs(CLI::App& app) {
   std::vector<Named> inputs, outputs;
   for (CLI::App* sub = &app; sub != nullptr;) {
     for (CLI::Option* option : sub->get_options()) {
-      if (option->count() == 0) continue;
-      auto& list = is_output(*option) ? outputs : inputs;
-      for (const std::string& value : option->results())
-        list.push_back({option->get_name(), value});
+      const std::optional<OutputName> name = output_name(*option);
+      std::vector<std::string> values = option->results();
+      if (values.empty() && name && !option->get_default_str().empty())
+        values.push_back(option->get_default_str());
+      for (const std::string& value : values) {
+        if (!name) inputs.push_back({option->get_name(), value});
+        for (const std::string& file : name ? files_of(value, *name) : std::vector<std::string>())
+          outputs.push_back({option->get_name(), file});
+      }
     }
     const auto subs = sub->get_subcommands();
     sub = subs.empty() ? nullptr : subs.front();

@@ -5,8 +5,12 @@
 
 namespace maploop::tools {
 
-// Marks an option whose value is a file, or a folder of files, to be written.
-CLI::Validator output_place();
+// How an option names what is written: FILE (or a folder of files), SECONDS:FILE, or FILE with
+// FILE.ppp beside it.
+enum class OutputName { file, after_colon, with_ppp };
+
+// Marks an option whose value is to be written.
+CLI::Validator output_place(OutputName name = OutputName::file);
 
 // Throws std::runtime_error if a file that a parsed command is to write is also one that it was
 // given, or is to be written twice. Devices and pipes are left alone.

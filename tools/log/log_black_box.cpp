@@ -157,6 +157,7 @@ void black_box(const path& box, const schema::Schema& schema, const path& output
   const BoxEvents events(file);
   path snapshot = output;
   snapshot.replace_extension(".snapshot");
+  refuse_same_file(box, snapshot);
   Beginning begins;
   try {
     begins = beginning_of(events);

@@ -8,17 +8,22 @@
 #include "runtime/core/data_clock.h"
 #include "runtime/vehicle/config/kept_ppp.h"
 #include "runtime/vehicle/graph/stage_specs.h"
+#include "runtime/vehicle/stages/ppp_counts.h"
 #include "tools/command/attempt.h"
 
 namespace maploop::tools {
 namespace {
 
-// Returns the new name of the file.
-std::filesystem::path set_aside(const std::filesystem::path& file) {
+// Renames a damaged file, and returns in words what has become of it.
+std::string set_aside(const std::filesystem::path& file) {
   std::filesystem::path aside = file;
   aside += ".damaged";
-  std::filesystem::rename(file, aside);
-  return aside;
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file, error)) {
+    std::filesystem::rename(file, aside, error);
+    if (!error) return "the file is kept as '" + aside.string() + "'";
+  }
+  return "it cannot be kept as '" + aside.string() + "'";
 }
 
 }  // namespace
@@ -33,8 +38,8 @@ std::optional<vehicle::CarState> CarMemory::known() const {
   try {
     return vehicle::read_car_state(file_, config_.vehicle.car.name);
   } catch (const vehicle::DamagedCarState& damage) {
-    std::cerr << "maploop: " << damage.what() << "; the file is kept as '"
-              << set_aside(file_).string() << "', and this run starts without it\n";
+    std::cerr << "maploop: " << damage.what() << "; " << set_aside(file_)
+              << ", and this run starts without it\n";
     return std::nullopt;
   }
 }
@@ -51,12 +56,18 @@ void CarMemory::recall(vehicle::Vehicle& vehicle) {
 
 void CarMemory::recall_ppp(vehicle::Vehicle& vehicle) const {
   if (!vehicle.has(vehicle::stages::ppp)) return;
+  std::optional<Bytes> filter;
   try {
-    const auto filter = vehicle::read_kept_ppp(ppp_file_, config_.vehicle.car.name);
+    filter = vehicle::read_kept_ppp(ppp_file_, config_.vehicle.car.name);
+  } catch (const vehicle::DamagedCarState& damage) {
+    std::cerr << "maploop: " << damage.what() << "; " << set_aside(ppp_file_)
+              << ", and PPP starts without it\n";
+  }
+  try {
     if (filter) vehicle.recall(vehicle::stages::ppp, *filter);
-  } catch (const std::runtime_error& e) {
-    std::cerr << "maploop: " << e.what() << "; the file is kept as '"
-              << set_aside(ppp_file_).string() << "', and PPP starts without it\n";
+  } catch (const ArchiveError& other) {
+    std::cerr << "maploop: '" << ppp_file_.string() << "' is not used, because " << other.what()
+              << "; PPP starts without it\n";
   }
 }
 
@@ -65,6 +76,15 @@ void CarMemory::say_place(fusion::PlaceUse use) {
   said_ = use;
   std::cerr << "maploop: " << to_string(use) << ", so '" << file_.string()
             << "' gives no position to start from; the first fix does\n";
+}
+
+void CarMemory::say_ppp(const Health& health) const {
+  for (const RefusalCount& refused : health.refusals) {
+    if (refused.reason != vehicle::PppCounts::of_another_time) continue;
+    std::cerr
+        << "maploop: '" << ppp_file_.string()
+        << "' is of another time than this run's first epoch, so PPP has started without it\n";
+  }
 }
 
 void CarMemory::observe(vehicle::Observer& observer) {
@@ -111,6 +131,8 @@ void CarMemory::update() {
 bool CarMemory::write(const vehicle::VehicleReport& end) {
   if (file_.empty()) return true;
   say_place(end.place);
+  say_ppp(end.health);
+  if (end.ppp) ppp_ = end.ppp;
   const auto kept = write({end.last, end.calibration, end.here, remembered_}, ppp_);
   if (kept == 0U) {
     std::cerr << "maploop: '" << file_.string()

@@ -22,8 +22,8 @@ class CarMemory {
   CarMemory(std::filesystem::path file, const vehicle::VehicleConfig& config);
 
   // Tells the vehicle what the files say; before start(). A damaged file is renamed and said on
-  // standard error, and so is a filter of PPP with other settings. Throws std::runtime_error if
-  // the first file cannot be used.
+  // standard error; there it is said, too, that a filter of PPP has other settings. Throws
+  // std::runtime_error if a file cannot be read, or is of another car.
   void recall(vehicle::Vehicle& vehicle);
 
   // Writes where the car is, and what has been estimated of it since, every two seconds: a
@@ -35,14 +35,14 @@ class CarMemory {
   void observe_ppp(vehicle::Vehicle& vehicle, Duration every);  // before start()
   void update();
 
-  // Writes what the vehicle knew at its end, and of PPP what was noted last. Returns whether this
-  // succeeded.
+  // Writes what the vehicle knew at its end. Returns whether this succeeded.
   bool write(const vehicle::VehicleReport& end);
 
  private:
   std::optional<vehicle::CarState> known() const;
   void recall_ppp(vehicle::Vehicle& vehicle) const;
   void say_place(fusion::PlaceUse use);
+  void say_ppp(const Health& health) const;
   // Returns the number of values of the car that the file has; nothing: writing has failed.
   std::optional<std::size_t> write(const vehicle::CarEstimate& state,
                                    const std::optional<Bytes>& ppp) const;

@@ -1,4 +1,7 @@
 // maploop replay: a recorded drive through the whole graph.
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
 #include <string>
 
 #include "estimators/fusion/configuration.h"
@@ -7,9 +10,27 @@
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
+#include "tools/command/output_check.h"
 #include "tools/replay/replay_run.h"
 
 namespace maploop::tools {
+
+namespace {
+
+SnapshotRequest parse_snapshot(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  SnapshotRequest request{-1.0, colon == std::string::npos ? "" : text.substr(colon + 1)};
+  const char* end = text.data() + std::min(colon, text.size());
+  const auto [stopped, error] = std::from_chars(text.data(), end, request.seconds);
+  if (error != std::errc{} || stopped != end || !(request.seconds > 0.0 && request.seconds < 1e6) ||
+      request.file.empty()) {
+    throw std::invalid_argument("'" + text +
+                                "' is not SECONDS:FILE, seconds above 0, such as 8:drive.snapshot");
+  }
+  return request;
+}
+
+}  // namespace
 
 void add_replay(CLI::App& app, Command& command, WritePage* write_page) {
   const auto [sub, options] = add_command(
@@ -56,7 +77,8 @@ void add_replay(CLI::App& app, Command& command, WritePage* write_page) {
            snapshot = parse_snapshot(text);
          },
          "SECONDS:FILE: save everything at this moment of the drive, and go on")
-      ->check(parsed_by(parse_snapshot, "SECONDS:FILE"));
+      ->check(parsed_by(parse_snapshot, "SECONDS:FILE"))
+      ->check(output_place(OutputName::after_colon));
   sub->add_option("--resume", options.resume,
                   "Go on from a snapshot of the same drive, with the same bits")
       ->check(existing_file());

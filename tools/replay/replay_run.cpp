@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -215,6 +214,16 @@ vehicle::PlayerParameters Replay::player_parameters() {
   p.first = resumed_ ? resumed_->at : recording_.first_stamp;
   p.last = std::min(recording_.last_stamp, end_);
   p.start = recording_.first_stamp + from_seconds(options_.start);
+  const auto moment = [&](Time t) { return shown(to_seconds(t - recording_.first_stamp)) + " s"; };
+  if (resumed_ && end_ < resumed_->at) {
+    throw std::runtime_error("--end " + moment(end_) +
+                             " lies before the snapshot of --resume, at " + moment(resumed_->at));
+  }
+  if (options_.snapshot && (cut_ > end_ || (resumed_ && cut_ <= resumed_->at))) {
+    throw std::runtime_error("--snapshot " + shown(options_.snapshot->seconds) +
+                             " s lies outside of what is played, " + moment(p.first) + " to " +
+                             moment(p.last));
+  }
   if (p.last < p.first) {
     throw std::runtime_error("'" + options_.drive.string() + "' ends " +
                              shown(to_seconds(p.first - p.last)) +
@@ -222,7 +231,7 @@ vehicle::PlayerParameters Replay::player_parameters() {
   }
   if (p.start > p.last) {
     throw std::runtime_error("--start " + shown(options_.start) + " lies after the end, at " +
-                             shown(to_seconds(p.last - recording_.first_stamp)) + " s");
+                             moment(p.last));
   }
   // Without a bus and a terminal, nobody can send the replay back, so it keeps no snapshots.
   if (output_.bus() == nullptr && isatty(STDIN_FILENO) == 0) p.snapshots = 0;
@@ -279,19 +288,6 @@ int Replay::run() {
 }
 
 }  // namespace
-
-SnapshotRequest parse_snapshot(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  SnapshotRequest request{-1.0, colon == std::string::npos ? "" : text.substr(colon + 1)};
-  const char* end = text.data() + std::min(colon, text.size());
-  const auto [stopped, error] = std::from_chars(text.data(), end, request.seconds);
-  if (error != std::errc{} || stopped != end || !(request.seconds > 0.0 && request.seconds < 1e6) ||
-      request.file.empty()) {
-    throw std::invalid_argument("'" + text +
-                                "' is not SECONDS:FILE, seconds above 0, such as 8:drive.snapshot");
-  }
-  return request;
-}
 
 int replay(const ReplayOptions& options) {
   return Replay(options).run();

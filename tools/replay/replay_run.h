@@ -21,9 +21,6 @@ struct SnapshotRequest {
   std::filesystem::path file;
 };
 
-// SECONDS:FILE. Throws std::invalid_argument saying what is wrong with it.
-SnapshotRequest parse_snapshot(const std::string& text);
-
 struct ReplayOptions : RunOptions {
   std::filesystem::path drive;
   double speed = 1.0;

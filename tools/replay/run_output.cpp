@@ -14,6 +14,7 @@
 #include "tools/command/attempt.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
+#include "tools/command/output_check.h"
 #include "tools/command/terminal.h"
 #include "tools/replay/nav_files.h"
 #include "tools/replay/recorder.h"
@@ -73,7 +74,8 @@ void add_run_options(CLI::App* sub, RunOptions& options, WritePage* write_page) 
   add_output(sub, "--state", options.state,
              "Start from what this file says of the car, if it exists, and keep there where the "
              "car is, and what is estimated of it: mounts, axle, antenna, scales, biases; with PPP "
-             "its filter too, in FILE.ppp");
+             "its filter too, in FILE.ppp")
+      ->check(output_place(OutputName::with_ppp));
   add_output(sub, "--poses", options.poses,
              "Write the fused left-camera poses to this file in KITTI's format");
   add_output(sub, "--tum", options.tum, "The same in TUM's format, with stamps");

@@ -31,9 +31,7 @@ void write_kept_ppp(const std::filesystem::path& file, const std::string& car,
 }
 
 std::optional<Bytes> read_kept_ppp(const std::filesystem::path& file, const std::string& car) {
-  const auto refuse = [&file](const std::string& why) {
-    throw std::runtime_error("cannot use '" + file.string() + "': " + why);
-  };
+  const std::string cannot = "cannot use '" + file.string() + "': ";
   if (!std::filesystem::exists(file)) return std::nullopt;
   std::string of;
   Bytes filter;
@@ -43,11 +41,16 @@ std::optional<Bytes> read_kept_ppp(const std::filesystem::path& file, const std:
     describe(reader, of, filter);
     reader.finish();
   } catch (const ArchiveError& e) {
-    refuse(e.what());
+    throw DamagedCarState(cannot + e.what());
   } catch (const FileError& e) {
-    refuse(e.reason());
+    throw std::runtime_error(cannot + e.reason());
   }
-  if (of != car) refuse(fmt::format("it is of the car '{}', and this is '{}'", of, car));
+  if (of != car) {
+    throw std::runtime_error(cannot +
+                             fmt::format("it is of the car '{}', and this is '{}'; name another "
+                                         "file with --state",
+                                         of, car));
+  }
   return filter;
 }
 

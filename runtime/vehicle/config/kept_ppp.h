@@ -7,6 +7,7 @@
 #include <string>
 
 #include "msgs/archive.h"
+#include "runtime/vehicle/config/car_state.h"
 
 namespace maploop::vehicle {
 
@@ -16,7 +17,8 @@ void write_kept_ppp(const std::filesystem::path& file, const std::string& car,
                     std::span<const std::uint8_t> filter);
 
 // Returns what was written; nothing if there is no such file. Throws std::runtime_error that names
-// the file and what is wrong: not readable, damaged, of another version, or of another car.
+// the file and what is wrong: not readable, or of another car; DamagedCarState: cut, changed, or
+// of another version.
 std::optional<Bytes> read_kept_ppp(const std::filesystem::path& file, const std::string& car);
 
 }  // namespace maploop::vehicle

@@ -59,6 +59,8 @@ class GraphStage {
   // Takes what was saved in an earlier run on other data, as far as it still helps; before run().
   // Throws as resume() does.
   virtual void recall_saved(std::span<const std::uint8_t> /*saved*/) {}
+  // Returns what recall_saved() takes; after run().
+  virtual Bytes kept() { return {}; }
   // Memory that is mapped beforehand for a saved state; a larger one is not an error.
   virtual std::size_t saved_bytes() const = 0;
 

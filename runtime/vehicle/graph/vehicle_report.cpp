@@ -34,6 +34,10 @@ VehicleReport Vehicle::Graph::report() const {
   r.calibration = fusion->filter_report().calibration;
   r.place = fusion->filter_report().status.place;
   r.here = fusion->filter_report().here;
+  const bool failed = std::any_of(
+      r.health.threads.begin(), r.health.threads.end(),
+      [](const ThreadHealth& t) { return t.name == stages::ppp.name && !t.failure.empty(); });
+  if (GraphStage* ppp = stage(stages::ppp.name); ppp != nullptr && !failed) r.ppp = ppp->kept();
   r.stalls = clock.stalls();
   r.stalled = clock.stalled();
   r.last = fusion->position();

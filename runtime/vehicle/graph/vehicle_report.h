@@ -9,6 +9,7 @@
 #include "estimators/fusion/filter_state.h"
 #include "estimators/fusion/last_place.h"
 #include "estimators/fusion/self_calibration.h"
+#include "msgs/archive.h"
 #include "msgs/diagnostics.h"
 #include "runtime/vehicle/health/episodes.h"
 #include "sensors/source.h"
@@ -30,6 +31,7 @@ struct VehicleReport {
   fusion::SelfCalibrations calibration;  // what the filter has estimated of the vehicle
   fusion::PlaceUse place{};              // what became of the last place
   std::optional<fusion::LastPlace> here;
+  std::optional<Bytes> ppp;  // what Vehicle::recall() takes for the ppp stage
   std::uint64_t stalls = 0;  // how often the data clock had to wait for the graph
   Duration stalled{};
   Time last{};                // data time of the fusion's last tick

@@ -30,7 +30,7 @@ std::vector<RefusalCount> PppCounts::refusals() const {
   add("begun anew: measurements disagreed with the position", restarts);
   add("a wrong road forgotten", forgotten_roads);
   add("epoch without corrections", uncorrected);
-  add("state of the last run: of another time", outdated);
+  add(of_another_time, outdated);
   return all;
 }
 

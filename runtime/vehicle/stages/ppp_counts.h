@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "msgs/diagnostics.h"
@@ -22,6 +23,8 @@ struct PppCounts {
   std::atomic<std::uint64_t> forgotten_roads{0};
   std::atomic<std::uint64_t> uncorrected{0};  // epochs, where corrections are received
   std::atomic<std::uint64_t> outdated{0};     // states of an earlier run
+
+  static constexpr std::string_view of_another_time = "state of the last run: of another time";
 
   // Counts the satellites of an epoch, and whether it has a position.
   void note(const PppState& state);

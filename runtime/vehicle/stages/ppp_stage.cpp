@@ -276,6 +276,12 @@ void PppStage::recall_saved(std::span<const std::uint8_t> saved) {
   recalled_ = true;
 }
 
+Bytes PppStage::kept() {
+  ArchiveWriter ar;
+  archive_known(ar);
+  return ar.take();
+}
+
 void PppStage::forget_outdated(ppp::GpsTime now) {
   recalled_ = false;
   if (now > filter_.last_epoch() && now - filter_.last_epoch() < longest_away) return;

@@ -41,6 +41,7 @@ class PppStage final : public GraphStage {
   // broadcast messages that were received. The filter is forgotten if the first epoch is later by
   // more than ten minutes, or earlier.
   void recall_saved(std::span<const std::uint8_t> saved) override;
+  Bytes kept() override;
   std::vector<UseWatch*> uses() override { return {&use_}; }
   // Epochs without a position, refused satellites and slips by their reasons, and restarts.
   std::vector<RefusalCount> refusals() override { return counts_.refusals(); }

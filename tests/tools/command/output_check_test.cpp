@@ -47,6 +47,41 @@ TEST_F(OutputCheck, NoTwoOutputsAreOneFile) {
   EXPECT_EQ(run_maploop(nowhere).status, 0);
 }
 
+TEST_F(OutputCheck, FilesBesideTheOneThatIsNamedCount) {
+  const auto replay = [&](const Words& options) {
+    Words words{"replay", track_, "--no-lcm", "--lockstep"};
+    words.insert(words.end(), options.begin(), options.end());
+    return words;
+  };
+  refused(replay({"--snapshot", "3:" + track_}), "it is read (DRIVE)");
+  refused(replay({"--snapshot", "3:" + file("new"), "--csv", file("new")}), "is written there");
+  refused(replay({"--state", file("car"), "--csv", file("car.ppp")}), "is written there");
+  std::filesystem::create_directory(file("empty"));
+  write("extrinsics.toml", "");
+  refused({"calibrate", "extrinsics", file("empty"), "--config", file("extrinsics.toml"), "--toml",
+           file("extrinsics.toml")},
+          "it is read (--config)");
+}
+
+TEST_F(OutputCheck, AMapThatIsANetworkAlreadyIsNamed) {
+  const std::string network = file("street.net"), doubts = file("doubts.geojson");
+  ASSERT_EQ(run_maploop({"map", "build", map_, network}).status, 0);
+  ASSERT_EQ(run_maploop({"map", "doubts", map_, track_, "-o", doubts}).status, 0);
+  refused({"map", "build", network, file("other.net"), "--doubts", doubts},
+          "give the map that it was made from");
+}
+
+TEST_F(OutputCheck, ATrackThatCannotBeUsedDoesNotStopTheOthers) {
+  const std::string cut = write("cut.gpx", std::string(track).substr(0, 100));
+  const std::string doubts = file("doubts.geojson");
+  const ProcessResult result = run_maploop({"map", "doubts", map_, cut, track_, "-o", doubts});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr("2 fixes of 1 tracks"));
+  EXPECT_THAT(result.error, AllOf(HasSubstr("cut.gpx:"), HasSubstr("was it cut"),
+                                  HasSubstr("1 of 2 tracks could not be used")));
+  EXPECT_TRUE(std::filesystem::exists(doubts));
+}
+
 TEST_F(OutputCheck, ABoxOfANetworkFileIsRefused) {
   const std::string network = file("street.net");
   ASSERT_EQ(run_maploop({"map", "build", map_, network}).status, 0);

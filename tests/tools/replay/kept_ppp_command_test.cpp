@@ -37,8 +37,20 @@ TEST_F(ReplayOfAReceiver, KeepsTheFilterAndGoesOnWithIt) {
   EXPECT_THAT(error_, AllOf(HasSubstr("car.state.ppp': "), HasSubstr("car.state.ppp.damaged'"),
                             HasSubstr("PPP starts without it")));
 
+  const std::string polo = write("polo.toml", "[vehicle]\nname = \"polo\"\n");
+  EXPECT_THAT(refusal(car_, {"--state", file("car.state"), "--config", polo}),
+              HasSubstr("it is of the car '', and this is 'polo'"));
+
   std::filesystem::remove(file("car.state.ppp"));
   EXPECT_EQ(fourth_minute(), cold);
+}
+
+TEST_F(ReplayOfAReceiver, KeepsTheFilterOfItsEndAndSaysThatOneIsOfAnotherTime) {
+  replay(car_, {"--lockstep", "--end", "3", "--state", file("car.state")});
+  const ProcessResult again = run_maploop(
+      {"replay", car_, "--no-lcm", "--lockstep", "--end", "3", "--state", file("car.state")});
+  EXPECT_EQ(again.status, 0);
+  EXPECT_THAT(again.error, HasSubstr("car.state.ppp' is of another time"));
 }
 
 }  // namespace

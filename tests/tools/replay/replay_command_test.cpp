@@ -141,7 +141,7 @@ TEST_F(ReplayOfDrive, WithoutAPositionFailsAndSaysWhy) {
 
 TEST_F(ReplayOfDrive, ASnapshotThatIsNotTakenIsAnError) {
   EXPECT_THAT(lockstep({"--end", "1", "--snapshot", "60:" + file("a.snapshot")}).error,
-              HasSubstr("did not come to 60 s"));
+              HasSubstr("--snapshot 60 s lies outside of what is played, 0 s to 1 s"));
   EXPECT_FALSE(std::filesystem::exists(file("a.snapshot")));
   for (const char* request : {"soon:a", "-1:a", "5"}) {
     EXPECT_THAT(lockstep({"--snapshot", request}).error, HasSubstr("SECONDS:FILE"));
