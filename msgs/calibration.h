@@ -19,10 +19,10 @@ struct StereoCalibration {
 
 // Says what there is to combine with fixes.
 struct FusedSensors {
-  bool motion = false;  // of a camera, a LiDAR or wheels
-  bool inertial = false;
-  bool wheels = false;  // their speed is the only motion
-  bool mems = true;     // the grade of the inertial unit is not known
+  bool motion = false;    // of a camera, a LiDAR or wheels
+  bool inertial = false;  // of a unit's accelerometers and gyros
+  bool wheels = false;    // their speed is the only motion
+  bool mems = true;       // the grade of the inertial unit is not known
 
   void archive(auto& ar) { ar(motion, inertial, wheels, mems); }
 };
@@ -36,7 +36,7 @@ struct VehicleCalibration {
   double climb_offset = 0.0;           // rad, direction of travel above body x, by mounting
   double climb_offset_sigma = 0.0175;  // rad (1 deg), of climb_offset
   double beam_elevation = 0.0;         // rad, the LiDAR's beams are higher than calibrated
-  FusedSensors fused{true, true, true, false};
+  FusedSensors fused{true, true, true, false};  // a vehicle has all of them
   bool peer_reference = false;  // the reference is another fusion of the same sensors, not a truth
 
   void archive(auto& ar) {

@@ -7,6 +7,7 @@
 #include "msgs/input_file.h"
 #include "sensors/bag/sqlite_reader.h"
 #include "sensors/velodyne/capture_reader.h"
+#include "tools/match/track_file.h"
 
 namespace maploop {
 
@@ -15,6 +16,10 @@ mapmatch::MapExtract mapmatch::read_osm(const std::filesystem::path& file, const
       "'" + file.string() +
       "' is neither a network file nor a tiled map, which are the kinds of map "
       "that a vehicle reads; 'maploop map build' makes them");
+}
+
+match::Track match::parse_gpx_track(std::string_view, std::string_view name, const TrackOptions&) {
+  throw std::runtime_error(std::string(name) + ": maploop-vehicle does not read GPX; maploop does");
 }
 
 namespace sensors {
