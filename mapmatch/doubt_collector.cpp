@@ -4,7 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "mapmatch/reach_gate.h"
 #include "msgs/frames.h"
 
 namespace maploop::mapmatch {
@@ -47,7 +46,11 @@ DoubtCollector::DoubtCollector(const RoadNetwork& network, const MatchParameters
 }
 
 std::span<const MapDoubt> DoubtCollector::add(const LinkMatch& match, const VehicleFix& fix) {
-  if (match.refusal == FixRefusal::out_of_reach) return finish();
+  if (match.refusal == FixRefusal::out_of_reach) {  // what was before or is after it is wrong
+    away_ = {};
+    jumped_ = true;
+    return finish();
+  }
   found_count_ = 0;
   if (match.refusal != FixRefusal::none) return {};
   const Step step = advance(fix);
@@ -70,9 +73,7 @@ std::span<const MapDoubt> DoubtCollector::finish() {
 DoubtCollector::Step DoubtCollector::advance(const VehicleFix& fix) {
   const Eigen::Vector2d place = network_->to_local(fix.position);
   const double interval = to_seconds(fix.stamp - stamp_);
-  const double sigma = std::sqrt(0.5 * fix.covariance.trace());
-  if (!started_ || fix.stamp - stamp_ > max_gap_ ||
-      !within_reach((place - place_).norm(), interval, sigma)) {
+  if (!started_ || fix.stamp - stamp_ > max_gap_) {
     if (started_) finish();
     started_ = true;
     stamp_ = fix.stamp;
@@ -114,11 +115,13 @@ MapDoubt& DoubtCollector::add_doubt(DoubtKind kind, const Visit& visit, double p
 void DoubtCollector::follow_away(const LinkMatch& match, const VehicleFix& fix, const Step& step) {
   if (match.on_road && match.off_road < may_have_left) {
     last_ = segment_at(match.link, match.along);
+    jumped_ = false;
     return end_away(last_);
   }
   const double x = step.place.x(), y = step.place.y();
   if (!area_.meets({x, y, x, y})) return end_away({});
   if (!away_.there) {
+    if (jumped_) return;
     away_ = {};
     away_.there = true;
     away_.segment = match.on_road ? segment_at(match.link, match.along) : last_;

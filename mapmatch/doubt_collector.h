@@ -36,7 +36,7 @@ class DoubtCollector {
   // Archives the whole state.
   template <class Archive>
   void archive(Archive& ar) {
-    ar(started_, stamp_, place_, away_, link_, last_, before_);
+    ar(started_, jumped_, stamp_, place_, away_, link_, last_, before_);
     if constexpr (Archive::loading) {
       const auto check = [&](const MapDoubt::Segment& segment, bool there) {
         if ((there || segment.way_id != 0) && segment.link.link >= network_->size())
@@ -89,7 +89,8 @@ class DoubtCollector {
 
   const RoadNetwork* network_;
   Duration max_gap_;
-  Box area_;  // m, of all roads, and a margin
+  bool jumped_ = false;  // the fixes, and they have not been on a road since
+  Box area_;             // m, of all roads, and a margin
   bool started_ = false;
   Time stamp_{};                                     // of the last fix
   Eigen::Vector2d place_ = Eigen::Vector2d::Zero();  // m, from which the way is measured

@@ -9,15 +9,6 @@
 
 namespace maploop::mapmatch {
 
-// Whether a vehicle can have driven `metres` in `seconds`. A filter that was long without fixes may
-// step by a hundred metres at its next one; `sigma` (m) is the fix's standard deviation.
-inline bool within_reach(double metres, double seconds, double sigma) {
-  constexpr double top_speed = 100.0;     // m/s
-  constexpr double largest_step = 100.0;  // m
-  constexpr double sigmas = 5.0;
-  return metres <= largest_step + top_speed * seconds + sigmas * sigma;
-}
-
 // Judges fixes in the order of their stamps. A single fix out of reach is stray. Where the next one
 // is within reach of it, the vehicle is there: what was before was wrong.
 class ReachGate {
@@ -53,9 +44,14 @@ class ReachGate {
     double sigma = 0.0;  // m
     void archive(auto& ar) { ar(stamp, place, sigma); }
   };
+  // Whether a vehicle can have driven there. A filter that was long without fixes may step by a
+  // hundred metres at its next one.
   static bool reached(const Seen& from, const Seen& to) {
-    return within_reach((to.place - from.place).norm(), to_seconds(to.stamp - from.stamp),
-                        to.sigma);
+    constexpr double top_speed = 100.0;     // m/s
+    constexpr double largest_step = 100.0;  // m
+    constexpr double sigmas = 5.0;
+    return (to.place - from.place).norm() <=
+           largest_step + top_speed * to_seconds(to.stamp - from.stamp) + sigmas * to.sigma;
   }
 
   std::optional<Seen> last_, stray_;

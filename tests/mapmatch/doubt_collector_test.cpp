@@ -58,6 +58,13 @@ TEST(DoubtCollector, FindsNothingOnADriveThatKeepsToTheMap) {
       IsEmpty());
 }
 
+TEST(DoubtCollector, WhereTheReceiverJumpsNoRoadIsMissing) {
+  auto fixes = drive({{-490, 0}, {490, 0}}, 10.0, 1.0);
+  for (std::size_t i = 40; i < 52; ++i) fixes[i].position.latitude += radians(0.004);  // 440 m
+  fixes[70].position = {};
+  EXPECT_THAT(doubts(side_street().network(), fixes), IsEmpty());
+}
+
 TEST(DoubtCollector, FindsTheRoadThatTheMapLacksWithItsTrackAndItsNeighbours) {
   const SmallMap map = SmallMap()
                            .node(1, -500, 0)

@@ -164,7 +164,7 @@ void MapMatchStage::save_until(Time t, const std::stop_token& stop) {
 
 template <class Archive>
 void MapMatchStage::archive(Archive& ar) {
-  ar.section(spec().name, 4);
+  ar.section(spec().name, 5);
   bool closed = feedback_parameters_.has_value();
   ar(window_, recent_, since_change_);
   if constexpr (Archive::loading) {

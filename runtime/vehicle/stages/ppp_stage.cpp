@@ -247,12 +247,12 @@ void PppStage::save_until(Time t, const std::stop_token& stop) {
 template <class Archive>
 void PppStage::archive_known(Archive& ar) {
   ar.section(spec().name, 7);
-  ar(filter_);
   bool receives = received_.has_value();
   ar(receives);
   if constexpr (Archive::loading) {
     if (receives != received_.has_value()) ar.fail("other products than this run has");
   }
+  ar(filter_);
   if (received_) ar(*received_);
 }
 
