@@ -15,21 +15,17 @@ class ReachGate {
  public:
   enum class Found { near, stray, moved };
 
-  // `place` is in local metres.
+  // `place` is in local metres, and `sigma` (m) is its standard deviation on each axis.
   Found judge(Time stamp, const Eigen::Vector2d& place, double sigma) {
     const Seen now{stamp, place, sigma};
-    if (!last_ || reached(*last_, now)) {
-      last_ = now;
-      stray_.reset();
-      return Found::near;
+    const bool near = !last_ || reached(*last_, now);
+    if (!near && !(stray_ && reached(*stray_, now))) {
+      stray_ = now;
+      return Found::stray;
     }
-    if (stray_ && reached(*stray_, now)) {
-      last_ = now;
-      stray_.reset();
-      return Found::moved;
-    }
-    stray_ = now;
-    return Found::stray;
+    last_ = now;
+    stray_.reset();
+    return near ? Found::near : Found::moved;
   }
 
   // The next fix may be anywhere.

@@ -114,4 +114,9 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
   whole.keep();
 }
 
+void write_whole_file(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  write_whole_file(file,
+                   std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
 }  // namespace maploop::runtime

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string_view>
 
 namespace maploop::runtime {
@@ -42,5 +44,6 @@ class WholeFile {
 
 // Writes all bytes at once.
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
+void write_whole_file(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
 }  // namespace maploop::runtime

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the validators that mark an output, by OutputName.
+// These are the names of the validators that mark an output, by OutputName.
 constexpr std::array marks{"output", "output after a colon", "output with .ppp"};
 
 struct Named {

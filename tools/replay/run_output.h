@@ -74,7 +74,7 @@ class RunOutput {
   vehicle::LcmBus* bus() { return bus_.get(); }
   vehicle::RunPresence* presence() { return presence_ ? &*presence_ : nullptr; }
 
-  // What the run keeps of the car (--state).
+  // Returns the memory of the car, which --state names.
   CarMemory& car() { return car_; }
 
   // Returns the sinks of the run's messages: the hashes, the bus and the log.

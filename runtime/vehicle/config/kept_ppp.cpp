@@ -13,7 +13,7 @@ namespace maploop::vehicle {
 namespace {
 
 template <class Archive>
-void describe(Archive& ar, std::string& car, Bytes& filter) {
+void describe(Archive& ar, auto& car, auto& filter) {
   ar.section("kept ppp", 1);
   ar(car, filter);
 }
@@ -21,13 +21,10 @@ void describe(Archive& ar, std::string& car, Bytes& filter) {
 }  // namespace
 
 void write_kept_ppp(const std::filesystem::path& file, const std::string& car,
-                    std::span<const std::uint8_t> filter) {
-  std::string name = car;
-  Bytes content(filter.begin(), filter.end());
+                    const Bytes& filter) {
   ArchiveWriter writer;
-  describe(writer, name, content);
-  const Bytes sealed = seal(writer.content());
-  runtime::write_whole_file(file, {reinterpret_cast<const char*>(sealed.data()), sealed.size()});
+  describe(writer, car, filter);
+  runtime::write_whole_file(file, seal(writer.content()));
 }
 
 std::optional<Bytes> read_kept_ppp(const std::filesystem::path& file, const std::string& car) {

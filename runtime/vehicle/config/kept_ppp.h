@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "msgs/archive.h"
@@ -13,8 +12,7 @@ namespace maploop::vehicle {
 
 // `filter` is what the ppp stage saved of itself. Replaces the file when it is written whole.
 // Throws std::runtime_error that names the file and states what to do.
-void write_kept_ppp(const std::filesystem::path& file, const std::string& car,
-                    std::span<const std::uint8_t> filter);
+void write_kept_ppp(const std::filesystem::path& file, const std::string& car, const Bytes& filter);
 
 // Returns what was written; nothing if there is no such file. Throws std::runtime_error that names
 // the file and what is wrong: not readable, or of another car; DamagedCarState: cut, changed, or

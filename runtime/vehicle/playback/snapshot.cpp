@@ -47,8 +47,7 @@ Bytes snapshot_bytes(const Snapshot& snapshot, const VehicleConfig& config) {
 
 void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot,
                     const VehicleConfig& config) {
-  const Bytes sealed = snapshot_bytes(snapshot, config);
-  runtime::write_whole_file(file, {reinterpret_cast<const char*>(sealed.data()), sealed.size()});
+  runtime::write_whole_file(file, snapshot_bytes(snapshot, config));
 }
 
 Snapshot read_snapshot(const std::filesystem::path& file, const VehicleConfig& config) {

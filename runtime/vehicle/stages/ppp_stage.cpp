@@ -243,7 +243,7 @@ void PppStage::save_until(Time t, const std::stop_token& stop) {
   });
 }
 
-// What the next run can use, too.
+// Saves and loads what the next run can use, too.
 template <class Archive>
 void PppStage::archive_known(Archive& ar) {
   ar.section(spec().name, 7);

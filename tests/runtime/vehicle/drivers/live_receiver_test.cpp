@@ -115,7 +115,8 @@ TEST(LiveReceiver, GivesThePositionsOfTheSameObservationsInFiles) {
   EXPECT_GT(positions, count - 5);
 }
 
-// Of each epoch what a live vehicle sends, and the last that its ppp stage saved of itself.
+// This is the status that a live vehicle sends of each epoch, and what its ppp stage has saved
+// last.
 struct LiveRun {
   std::vector<PppStatus> statuses;
   Bytes saved;
