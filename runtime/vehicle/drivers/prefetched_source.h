@@ -20,8 +20,8 @@ namespace maploop::vehicle {
 
 // Runs the given source on a loader thread of its own, up to `depth` samples ahead. next() swaps a
 // loaded sample in, waits only when the loader is behind, and throws what ended the loader early.
-// The loader ends at a request through `stop`, and with this object. report() is to be read after
-// the end.
+// The loader ends at a request through `stop`, and with this object. report() waits until it has
+// ended.
 template <class T>
 class PrefetchedSource final : public sensors::Source<T> {
  public:
@@ -59,7 +59,13 @@ class PrefetchedSource final : public sensors::Source<T> {
     }
   }
 
-  const sensors::SourceReport& report() const override { return source_->report(); }
+  const sensors::SourceReport& report() const override {
+    for (;;) {
+      const std::uint32_t heard = filled_.listen();
+      if (ended_.load(std::memory_order_acquire)) return source_->report();
+      filled_.wait(heard);
+    }
+  }
 
  private:
   void load(const std::stop_token& stop) {

@@ -98,6 +98,24 @@ TEST(Vehicle, ADriverOrALoaderThatFailsIsNamedAndTheRestGoesOn) {
               Contains(HasSubstr("camera has ended: cable pulled")));
 }
 
+TEST(Vehicle, ADriverWhoseSamplesGoBackIsNamedAndItsLoaderEnds) {
+  Sensors sensors = fake_sensors(3.0);
+  Time last{};
+  sensors.camera =
+      sensors::derived(std::move(sensors.camera),
+                       [last](sensors::Source<StereoPair>& all, StereoPair& pair) mutable {
+                         if (!all.next(pair)) return false;
+                         if (all.report().delivered == 8) pair.available = last;
+                         last = pair.available;
+                         return true;
+                       });
+  const Driven r = drive({.sensors = std::move(sensors)});
+  EXPECT_EQ(r.channels.at("VO").count, 7u);
+  EXPECT_EQ(r.channels.at("IMU").count, 300u);
+  EXPECT_THAT(r.report.health.degraded,
+              Contains(HasSubstr("broke its promise of increasing times at sample 7")));
+}
+
 TEST(Vehicle, AParameterThatCannotWorkIsAnErrorAndTheLoadersEnd) {
   VehicleConfig config;
   config.fusion.gyro_noise = -1.0;
