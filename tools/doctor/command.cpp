@@ -13,6 +13,7 @@
 
 #include "runtime/core/realtime.h"
 #include "runtime/core/thread.h"
+#include "runtime/core/utc_discipline.h"
 #include "runtime/vehicle/config/scheduling_config.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/output/lcm_bus.h"
@@ -118,6 +119,7 @@ int doctor(const DoctorOptions& options) {
     return 0;
   }
   runtime::RealtimeReport report = runtime::prepare_process(config.memory);
+  runtime::append(report, {runtime::assess_utc()});
   ask_for_threads(config, report);
   runtime::append(report, ask_for_bus(vehicle::bus_url(options.lcm_url, config.lcm_url)));
   const MemoryReport memory = memory_report(config);

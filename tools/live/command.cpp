@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "runtime/core/realtime.h"
+#include "runtime/core/utc_discipline.h"
 #include "runtime/vehicle/config/live_config.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
@@ -98,6 +99,7 @@ int live(const LiveOptions& options) {
   const VehicleCalibration calibration = vehicle::live_calibration(config);
   const auto map = vehicle::load_road_map(config.map);
   runtime::RealtimeReport readiness = runtime::prepare_process(config.memory);
+  runtime::append(readiness, {runtime::assess_utc()});
 
   const std::string name = options.config.filename().string();
   RunOutput output(options, config, "live " + name);

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "runtime/core/utc_discipline.h"
 #include "runtime/vehicle/config/live_config.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/graph/vehicle.h"
@@ -142,6 +143,9 @@ int listen_to_sensors(const ListenOptions& options) {
   if (const Duration step = clock.step(); std::chrono::abs(step) > std::chrono::milliseconds(10)) {
     fmt::print("this machine's clock was set by {:+.3f} s meanwhile; stamps did not follow it\n",
                to_seconds(step));
+  }
+  if (const RealtimeSetting utc = runtime::assess_utc(); utc.verdict != Verdict::granted) {
+    fmt::print("{}\n", runtime::to_sentence(utc));
   }
   if (!options.json.empty()) write_json_file(options.json, json);
   return all ? 0 : 1;
