@@ -1,6 +1,5 @@
 #include "mapmatch/network_file.h"
 
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -10,12 +9,16 @@
 #include "msgs/archive.h"
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "msgs/whole_file.h"
 
 namespace maploop::mapmatch {
 namespace {
 
-constexpr std::string_view section = "road network";
-constexpr std::uint32_t version = 2;
+template <class Archive>
+void describe(Archive& ar, auto& network) {
+  ar.section("road network", 2);
+  ar(network);
+}
 
 }  // namespace
 
@@ -25,28 +28,13 @@ bool is_network_file(const std::filesystem::path& file) {
 }
 
 void save_network(const std::filesystem::path& file, const NetworkData& network) {
-  ArchiveWriter writer;
-  writer.section(section, version);
-  writer(network);
-  const Bytes sealed = seal(writer.content());
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(sealed.data()),
-            static_cast<std::streamsize>(sealed.size()));
-  out.flush();
-  if (!out) {
-    throw std::runtime_error("cannot write " + file.string() +
-                             ": check that its folder exists and that the disk has room");
-  }
+  write_whole_file(file, sealed_archive([&](auto& ar) { describe(ar, network); }));
 }
 
 NetworkData load_network(const std::filesystem::path& file) {
   try {
-    const Bytes bytes = read_sealed(file, input_limits::road_network);
-    ArchiveReader reader(unseal(bytes));
-    reader.section(section, version);
     NetworkData network;
-    reader(network);
-    reader.finish();
+    read_archive(file, input_limits::road_network, [&](auto& ar) { describe(ar, network); });
     return network;
   } catch (const FileError& e) {
     throw std::runtime_error("cannot load the road network " + std::string(e.what()));

@@ -19,6 +19,7 @@
 #include "mapmatch/road_network.h"
 #include "mapmatch/tiled_map.h"
 #include "msgs/archive.h"
+#include "msgs/whole_file.h"
 
 namespace maploop::mapmatch {
 
@@ -88,13 +89,11 @@ class TileCollector {
     put_away();
     waiting_.flush();
     require_written();
-    std::ofstream out(result, std::ios::binary);
+    WholeFile out(result);
     std::uint64_t offset = 0;
     const auto append = [&](const Bytes& bytes) {
-      out.write(reinterpret_cast<const char*>(bytes.data()),
-                static_cast<std::streamsize>(bytes.size()));
+      out.write(bytes);
       offset += bytes.size();
-      if (!out) throw cannot_write(result);
     };
     append(sealed(TiledMapHead{}));
     for (const auto& [place, collected] : tiles_) {
@@ -106,10 +105,8 @@ class TileCollector {
     }
     const TiledMapHead head{offset, sealed(table).size()};
     append(sealed(table));
-    out.seekp(0);
-    append(sealed(head));
-    out.flush();
-    if (!out) throw cannot_write(result);
+    out.replace_head(sealed(head));
+    out.keep();
   }
 
  private:

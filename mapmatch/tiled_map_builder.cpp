@@ -42,7 +42,6 @@ BuiltTiles build_tiled_map(const std::filesystem::path& map, const std::filesyst
   const std::filesystem::path result = replaceable(given);
   BuiltTiles built;
   TileTable& table = built.table;
-  const Scratch unfinished(result.string() + ".unfinished");
   TileCollector tiles(result.string() + ".waiting");
   CorrectedRoads corrected(correction);
   read_map_file(map, [&](const osmium::io::File& file) {
@@ -94,8 +93,7 @@ BuiltTiles build_tiled_map(const std::filesystem::path& map, const std::filesyst
       throw std::runtime_error(options.box ? "it has no roads inside the box" : "it has no roads");
   });
   progress("writing the tiles");
-  tiles.write(unfinished.file(), table);
-  std::filesystem::rename(unfinished.file(), result);
+  tiles.write(result, table);
   return built;
 }
 

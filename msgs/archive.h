@@ -112,6 +112,24 @@ std::span<const std::uint8_t> unseal(std::span<const std::uint8_t> sealed);
 // rest is read. Throws ArchiveError, or FileError if the file cannot be read.
 Bytes read_sealed(const std::filesystem::path& file, std::size_t limit);
 
+// Returns what write(ArchiveWriter&) writes, sealed.
+template <class Write>
+Bytes sealed_archive(const Write& write) {
+  ArchiveWriter writer;
+  write(writer);
+  return seal(writer.content());
+}
+
+// Reads such a file by read(ArchiveReader&), which must take all of it. Throws as read_sealed()
+// and unseal() do.
+template <class Read>
+void read_archive(const std::filesystem::path& file, std::size_t limit, const Read& read) {
+  const Bytes sealed = read_sealed(file, limit);
+  ArchiveReader reader(unseal(sealed));
+  read(reader);
+  reader.finish();
+}
+
 // Returns a number as a message shows it, with as many digits as it needs.
 template <class T>
 requires std::is_arithmetic_v<T> std::string shown(T value) {

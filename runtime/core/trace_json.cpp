@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-#include "runtime/core/whole_file.h"
+#include "msgs/whole_file.h"
 
 namespace maploop::runtime {
 namespace {

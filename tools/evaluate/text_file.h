@@ -15,7 +15,7 @@ inline std::string read_text(const std::filesystem::path& file) {
 }
 
 // Writes a compressed file if the name ends in .gz. The file then contains all of `text`, or its
-// former contents after an error (runtime/core/whole_file.h). Throws std::runtime_error naming the
+// former contents after an error (msgs/whole_file.h). Throws std::runtime_error naming the
 // file if it cannot be written.
 void write_text(const std::filesystem::path& file, const std::string& text);
 

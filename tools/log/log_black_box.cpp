@@ -129,7 +129,7 @@ double write_log(const BoxEvents& events, const Beginning& begins, LogWriter& lo
     if (e.channel == channel_names::calibration) return;
     if (e.channel == channel_names::snapshot) {
       if (e.time_us == begins.snapshot_us) {
-        runtime::write_whole_file(snapshot, e.data);
+        write_whole_file(snapshot, e.data);
       }
       return;
     }

@@ -7,8 +7,8 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "msgs/whole_file.h"
 #include "runtime/core/histogram.h"
-#include "runtime/core/whole_file.h"
 #include "tools/log/log_tools.h"
 
 namespace maploop::lcm_log {
@@ -188,7 +188,7 @@ void info(const path& log, const schema::Schema& schema, const path& json_file, 
   if (json_file.empty()) return;
   // A channel's name may contain any bytes.
   const std::string text = figures.dump(2, ' ', false, json::error_handler_t::replace);
-  runtime::write_whole_file(json_file, text + '\n');
+  write_whole_file(json_file, text + '\n');
 }
 
 }  // namespace maploop::lcm_log

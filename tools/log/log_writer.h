@@ -8,7 +8,7 @@
 
 #include "msgs/lcm/log/log_event.h"
 #include "msgs/lcm/schema.h"
-#include "runtime/core/whole_file.h"
+#include "msgs/whole_file.h"
 #include "tools/log/bag_log.h"
 #include "tools/log/mcap_log.h"
 
@@ -37,7 +37,7 @@ class LogWriter {
  private:
   void flush();
 
-  runtime::WholeFile file_;
+  WholeFile file_;
   bool compressed_;
   std::unique_ptr<McapLog> mcap_;  // nullptr: another format
   std::unique_ptr<BagLog> bag_;    // nullptr: another format

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "msgs/lcm/channel_names.h"
+#include "msgs/whole_file.h"
 #include "runtime/core/data_clock.h"
-#include "runtime/core/whole_file.h"
 #include "runtime/vehicle/output/black_box.h"
 #include "tools/command/attempt.h"
 #include "tools/command/option_checks.h"
@@ -140,7 +140,7 @@ void RunOutput::take_snapshots(vehicle::Vehicle& vehicle, RunPass& pass) {
 runtime::Tracer* RunOutput::new_tracer() {
   if (options_.trace.empty()) return nullptr;
   tracer_ = std::make_unique<runtime::Tracer>(config_.trace);
-  const runtime::WholeFile writable(options_.trace);  // fails before the drive, not after it
+  const WholeFile writable(options_.trace);  // fails before the drive, not after it
   return tracer_.get();
 }
 
@@ -161,7 +161,12 @@ bool RunOutput::write(const ReplayResult& result, const RunPass& pass,
   if (presence_) presence_->conclude(verdict_text(result));
   presence_.reset();
   bool all = !result.any_thread_failed();
-  all &= pass.recorder == nullptr || pass.recorder->health().unsent == 0;
+  if (const std::uint64_t lost = pass.recorder == nullptr ? 0 : pass.recorder->health().unsent;
+      lost > 0) {
+    all = false;
+    std::cerr << "maploop: '" << options_.record.string() << "' did not take " << lost
+              << " messages; may it be written, and has the disk room?\n";
+  }
   if (tracer_) all &= attempt([&] { tracer_->write(options_.trace); });
   if (!options_.json.empty()) all &= attempt([&] { write_json(options_.json, result); });
   if (result.end)

@@ -15,10 +15,10 @@
 #include "msgs/frames.h"
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "msgs/whole_file.h"
 #include "msgs/xxh3.h"
 #include "runtime/core/config.h"
 #include "runtime/core/number_text.h"
-#include "runtime/core/whole_file.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -202,7 +202,7 @@ std::size_t write_car_state(const std::filesystem::path& file, const std::string
   if (count == 0) return 0;
   const std::string checksum = checksum_of(text);
   text.append(checksum_line).append(checksum).append(1, '\n');
-  runtime::write_whole_file(file, text);
+  write_whole_file(file, text);
   return count;
 }
 

@@ -7,7 +7,7 @@
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
-#include "runtime/core/whole_file.h"
+#include "msgs/whole_file.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -22,9 +22,7 @@ void describe(Archive& ar, auto& car, auto& filter) {
 
 void write_kept_ppp(const std::filesystem::path& file, const std::string& car,
                     const Bytes& filter) {
-  ArchiveWriter writer;
-  describe(writer, car, filter);
-  runtime::write_whole_file(file, seal(writer.content()));
+  write_whole_file(file, sealed_archive([&](auto& ar) { describe(ar, car, filter); }));
 }
 
 std::optional<Bytes> read_kept_ppp(const std::filesystem::path& file, const std::string& car) {
@@ -33,10 +31,7 @@ std::optional<Bytes> read_kept_ppp(const std::filesystem::path& file, const std:
   std::string of;
   Bytes filter;
   try {
-    const Bytes sealed = read_sealed(file, input_limits::snapshot);
-    ArchiveReader reader(unseal(sealed));
-    describe(reader, of, filter);
-    reader.finish();
+    read_archive(file, input_limits::snapshot, [&](auto& ar) { describe(ar, of, filter); });
   } catch (const ArchiveError& e) {
     throw DamagedCarState(cannot + e.what());
   } catch (const FileError& e) {

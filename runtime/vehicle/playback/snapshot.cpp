@@ -10,7 +10,7 @@
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
 #include "msgs/parameter_archive.h"
-#include "runtime/core/whole_file.h"
+#include "msgs/whole_file.h"
 #include "runtime/vehicle/config/config_tables.h"
 
 namespace maploop::vehicle {
@@ -40,14 +40,12 @@ void describe(Archive& ar, S& snapshot, const VehicleConfig& config) {
 }  // namespace
 
 Bytes snapshot_bytes(const Snapshot& snapshot, const VehicleConfig& config) {
-  ArchiveWriter writer;
-  describe(writer, snapshot, config);
-  return seal(writer.content());
+  return sealed_archive([&](auto& ar) { describe(ar, snapshot, config); });
 }
 
 void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot,
                     const VehicleConfig& config) {
-  runtime::write_whole_file(file, snapshot_bytes(snapshot, config));
+  write_whole_file(file, snapshot_bytes(snapshot, config));
 }
 
 Snapshot read_snapshot(const std::filesystem::path& file, const VehicleConfig& config) {
@@ -56,10 +54,7 @@ Snapshot read_snapshot(const std::filesystem::path& file, const VehicleConfig& c
   };
   Snapshot snapshot;
   try {
-    const Bytes sealed = read_sealed(file, input_limits::snapshot);
-    ArchiveReader reader(unseal(sealed));
-    describe(reader, snapshot, config);
-    reader.finish();
+    read_archive(file, input_limits::snapshot, [&](auto& ar) { describe(ar, snapshot, config); });
   } catch (const ArchiveError& e) {
     refuse(e.what());
   } catch (const FileError& e) {

@@ -1,4 +1,4 @@
-#include "runtime/core/whole_file.h"
+#include "msgs/whole_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
-namespace maploop::runtime {
+namespace maploop {
 namespace {
 
 using maploop::testing::error_of;
@@ -98,4 +98,4 @@ TEST_F(WholeFileTest, WhatCannotBeWrittenIsNamedWithItsReason) {
 }
 
 }  // namespace
-}  // namespace maploop::runtime
+}  // namespace maploop

@@ -1,4 +1,4 @@
-#include "runtime/core/whole_file.h"
+#include "msgs/whole_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace maploop::runtime {
+namespace maploop {
 namespace {
 
 bool is_replaced(const std::filesystem::path& file) {
@@ -45,6 +45,10 @@ int flags_of(const std::filesystem::path& written, const std::filesystem::path& 
   return O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | (written != file ? O_NOFOLLOW : 0);
 }
 
+std::string_view characters(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace
 
 WholeFile::WholeFile(const std::filesystem::path& file)
@@ -71,6 +75,10 @@ void WholeFile::write(std::string_view bytes) {
   }
 }
 
+void WholeFile::write(std::span<const std::uint8_t> bytes) {
+  write(characters(bytes));
+}
+
 void WholeFile::flush() {
   for (std::size_t done = 0; done < used_;) {
     const ssize_t written = ::write(descriptor_, buffer_->data() + done, used_ - done);
@@ -83,15 +91,19 @@ void WholeFile::flush() {
   used_ = 0;
 }
 
-void WholeFile::replace_head(std::string_view bytes) {
+void WholeFile::replace_head(std::span<const std::uint8_t> bytes) {
   flush();
   for (off_t at = 0; !bytes.empty();) {
     const ssize_t written = pwrite(descriptor_, bytes.data(), bytes.size(), at);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);
     at += written;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
+}
+
+void WholeFile::replace_head(std::string_view bytes) {
+  replace_head({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
 void WholeFile::keep() {
@@ -115,8 +127,7 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
 }
 
 void write_whole_file(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  write_whole_file(file,
-                   std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  write_whole_file(file, characters(bytes));
 }
 
-}  // namespace maploop::runtime
+}  // namespace maploop

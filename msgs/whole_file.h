@@ -9,7 +9,7 @@
 #include <span>
 #include <string_view>
 
-namespace maploop::runtime {
+namespace maploop {
 
 // The file is written from beginning to end through a buffer of fixed size, under the name
 // FILE.part. Only keep() gives it its own name, when all of it is on the disk: an earlier file
@@ -26,7 +26,10 @@ class WholeFile {
   WholeFile& operator=(const WholeFile&) = delete;
 
   void write(std::string_view bytes);
-  void replace_head(std::string_view bytes);  // of what was written; not of a pipe
+  void write(std::span<const std::uint8_t> bytes);
+  // Replaces the beginning of what was written; not of a pipe.
+  void replace_head(std::string_view bytes);
+  void replace_head(std::span<const std::uint8_t> bytes);
   void keep();
 
  private:
@@ -46,4 +49,4 @@ class WholeFile {
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
 void write_whole_file(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
-}  // namespace maploop::runtime
+}  // namespace maploop
