@@ -20,7 +20,12 @@ bool knows_course(const FilterState& state) {
 }  // namespace
 
 Outcome ReducedImuFilter::start(const GnssFix& fix) {
-  const Reason reason = check_fix(fix, parameters_);
+  Reason reason = check_fix(fix, parameters_);
+  if (reason == Reason::no_course) {
+    if (!slow_fix_) slow_since_ = fix.stamp;
+    const bool late = fix.stamp - slow_since_ >= from_seconds(parameters_.late_course_after);
+    if (late && shows_late_course(fix, parameters_)) reason = Reason::none;
+  }
   if (reason == Reason::no_course) {
     status_.phase = Phase::waiting_for_motion;
     if (!slow_fix_ || slow_fix_->stamp < fix.stamp) slow_fix_ = fix;

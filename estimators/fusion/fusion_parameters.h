@@ -51,6 +51,8 @@ struct FusionParameters {
   // Start, from one GNSS fix.
   double min_course_speed = 2.0;           // m/s, from which a course starts the azimuth
   double max_course_velocity_sigma = 1.0;  // m/s, up to which it does
+  double late_course_after = 10.0;         // s, after which a less certain velocity does, too
+  double late_course_sigma = 0.25;         // rad, of such a course
   double max_stamp_offset = 0.2;           // s
   double min_position_sigma = 0.1;         // m
   double min_velocity_sigma = 0.03;        // m/s

@@ -168,6 +168,12 @@ Reason check_fix(const GnssFix& fix, const FusionParameters& parameters) {
   return Reason::none;
 }
 
+bool shows_late_course(const GnssFix& fix, const FusionParameters& parameters) {
+  const double speed = fix.velocity_enu.head<2>().norm();
+  return speed >= parameters.min_course_speed &&
+         velocity_sigma(fix) <= parameters.late_course_sigma * speed;
+}
+
 FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const FusionParameters& p,
                           double yaw_rate) {
   using namespace index;

@@ -39,11 +39,15 @@ Time start_stamp(const GnssFix& fix);
 // Returns Reason::none, or the reason why the fix cannot start a filter.
 Reason check_fix(const GnssFix& fix, const FusionParameters& parameters);
 
+// Returns whether a fix whose velocity is too uncertain to start a filter at once shows a course to
+// `late_course_sigma`.
+bool shows_late_course(const GnssFix& fix, const FusionParameters& parameters);
+
 // Returns the state at start_stamp(fix). The velocity moves the position to this time. Speed,
 // azimuth and pitch are the velocity's length, course and climb (the vehicle is assumed to drive
 // forward). The antenna swings about the rear axle at `yaw_rate` (rad/s, to the left), which is
 // taken off. The fix's covariance is propagated through this. Precondition: check_fix returns
-// Reason::none.
+// Reason::none, or shows_late_course() is true.
 FilterState initial_state(const GnssFix& fix, const LocalFrame& frame,
                           const FusionParameters& parameters, double yaw_rate = 0.0);
 

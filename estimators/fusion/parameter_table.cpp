@@ -81,6 +81,12 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "Standard deviation of the horizontal velocity of a fix up to which its course starts the "
        "azimuth. Between houses, a first velocity that is less certain is often wrong by many.",
        course_velocity_choice},
+      {"late_course_after", &P::late_course_after, 0.0, large, "s", expert,
+       "Time of fixes without such a velocity after which a less certain one starts the azimuth, "
+       "too: a receiver that measures no Doppler shifts has no better one."},
+      {"late_course_sigma", &P::late_course_sigma, 0.01, 0.5, "rad", expert,
+       "Standard deviation of the course of such a velocity, up to which it does. The filter is "
+       "linear up to 0.35."},
       {"max_stamp_offset", &P::max_stamp_offset, 0.0, 2.0, "s", expert,
        "Largest difference between the stamps of a fix's position and velocity."},
       {"min_position_sigma", &P::min_position_sigma, tiny, large, "m", expert,

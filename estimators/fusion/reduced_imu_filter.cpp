@@ -207,11 +207,11 @@ void ReducedImuFilter::take_over(const ReducedImuFilter& other) {
 
 template <class Archive, class Filter>
 void ReducedImuFilter::describe(Archive& ar, Filter& f) {
-  ar.section("reduced-IMU filter", 10);
+  ar.section("reduced-IMU filter", 11);
   archive_same_parameters(ar, f.parameters_);
   Geodetic origin = f.frame_.origin();
   ar(f.remembered_, f.last_place_, f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_,
-     f.started_from_, f.slow_fix_, f.initialized_, f.status_);
+     f.started_from_, f.slow_fix_, f.slow_since_, f.initialized_, f.status_);
   if constexpr (Archive::loading) {
     f.frame_ = LocalFrame(origin);
     f.earth_ = LocalEarth(origin);

@@ -203,6 +203,7 @@ class ReducedImuFilter {
   EventHistory history_;
   std::optional<GnssFix> started_from_;
   std::optional<GnssFix> slow_fix_;  // the last one from before the start that shows no course
+  Time slow_since_{};                // the first one of these
   bool initialized_ = false;
   FilterStatus status_;
 };

@@ -13,8 +13,10 @@ bool plausible_stamp(Time stamp);
 
 // A stamp older than the history is too old. A stamp ahead of all others by more than `confirm_gap`
 // may be a fault that would make all other data look late. It is refused, and the next stamp is
-// accepted if it is within `confirm_gap` of it and at most `max_gap` ahead. If only such refusals
-// arrive, the clock of the data itself has jumped.
+// accepted if it is within `confirm_gap` of it and at most `max_gap` ahead, or as far after it as
+// it was after the others: then the data comes so rarely, as the fixes of a slow receiver alone,
+// and the gap up to which stamps need no second one is half as long again as theirs. If only such
+// refusals arrive, the clock of the data itself has jumped.
 class StampGuard {
  public:
   explicit StampGuard(const FusionParameters& parameters);
@@ -31,16 +33,19 @@ class StampGuard {
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(newest_, unconfirmed_, refused_in_a_row_);
+    ar(newest_, unconfirmed_, interval_, refused_in_a_row_);
   }
 
  private:
+  Duration usual_gap() const;
+
   Duration history_length_;
   Duration confirm_gap_;
   Duration max_gap_;
   int restart_after_;
   Time newest_{};
-  Time unconfirmed_{};  // the last stamp refused for being too far ahead
+  Time unconfirmed_{};   // the last stamp refused for being too far ahead
+  Duration interval_{};  // between stamps lately, the longest; it fades within some of them
   int refused_in_a_row_ = 0;
 };
 

@@ -33,6 +33,35 @@ TEST(StampGuard, AGapNeedsASecondStampThatAgrees) {
   EXPECT_EQ(guard.check(SyntheticDrive::at(110.01)), Reason::time_jump) << "beyond what is bridged";
 }
 
+// Returns which of the stamps are accepted.
+std::vector<bool> accepted(const std::vector<double>& seconds) {
+  StampGuard guard({});
+  std::vector<bool> all;
+  for (const double s : seconds) {
+    all.push_back(guard.check(SyntheticDrive::at(s)) == Reason::none);
+    if (all.back()) guard.accept(SyntheticDrive::at(s));
+  }
+  return all;
+}
+
+TEST(StampGuard, RareDataIsTakenFromTheThirdStampOn) {
+  using Accepted = std::vector<bool>;
+  EXPECT_EQ(accepted({100.0, 101.01, 102.0, 103.02, 104.0, 105.3}),
+            (Accepted{true, false, true, true, true, true}));
+  EXPECT_EQ(accepted({100, 102, 104.1, 106, 108, 110}),
+            (Accepted{true, false, true, true, true, true}));
+  EXPECT_EQ(accepted({100, 103, 106, 109, 115, 118, 121}),
+            (Accepted{true, false, true, true, false, true, true}))
+      << "one is missing";
+  EXPECT_EQ(accepted({100, 110, 120, 130}), (Accepted{true, false, false, false}))
+      << "nothing is predicted over so long a gap";
+}
+
+TEST(StampGuard, AWrongStampOfRareDataIsRefusedAlone) {
+  EXPECT_EQ(accepted({100, 102, 104, 106, 150, 108, 110}),
+            (std::vector<bool>{true, false, true, true, false, true, true}));
+}
+
 TEST(StampGuard, NothingButRefusalsIsAJumpOfTheClock) {
   FusionParameters parameters;
   parameters.restart_after = 3;

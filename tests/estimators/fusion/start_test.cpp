@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <vector>
 
 #include "tests/estimators/fusion/filter_run.h"
@@ -76,6 +77,29 @@ TEST(Start, ASlowFixShowsThePlaceButNoDirection) {
   EXPECT_NEAR(later.position_enu.x(), 1.0, 1e-6);
   EXPECT_GT(later.covariance(0, 0), now.covariance(0, 0) + 30.0) << "it may have driven off";
   EXPECT_FALSE(filter.state_without_course_at(fix.stamp + std::chrono::seconds(6)));
+}
+
+// As from a receiver without Doppler shifts.
+TEST(Start, AnUncertainVelocityStartsTheAzimuthIfNoBetterOneComes) {
+  const FusionParameters parameters;
+  ReducedImuFilter filter(parameters, test_origin());
+  const auto fix_of_speed = [](double t, double speed) {
+    GnssFix fix;
+    fix.stamp = fix.velocity_stamp = SyntheticDrive::at(t);
+    fix.position = test_origin();
+    fix.velocity_enu = {speed, 0.0, 0.0};
+    fix.position_covariance = Eigen::Matrix3d::Identity();
+    fix.velocity_covariance = 1.2 * 1.2 * Eigen::Matrix3d::Identity();
+    return fix;
+  };
+  const double patience = parameters.late_course_after;
+  for (double t = 0.0; t < patience; t += 1.0)
+    EXPECT_EQ(filter.add(fix_of_speed(t, 8.0)).reason, Reason::no_course) << t;
+  EXPECT_EQ(filter.add(fix_of_speed(patience, 4.0)).reason, Reason::no_course) << "17 degrees";
+  EXPECT_EQ(filter.add(fix_of_speed(patience + 1.0, 8.0)).reason, Reason::none);
+  const FusedState state = filter.state_at(SyntheticDrive::at(patience + 1.0)).value();
+  EXPECT_NEAR(state.attitude.azimuth, radians(90.0), 0.01);
+  EXPECT_NEAR(std::sqrt(state.covariance(6, 6)), 1.2 / 8.0, 0.03);
 }
 
 TEST(Start, IsRefusedFarFromAGivenOrigin) {

@@ -38,7 +38,8 @@ TEST_F(ReplayOfAReceiver, KeepsTheFilterAndGoesOnWithIt) {
                             HasSubstr("PPP starts without it")));
 
   const std::string polo = write("polo.toml", "[vehicle]\nname = \"polo\"\n");
-  EXPECT_THAT(refusal(car_, {"--state", file("car.state"), "--config", polo}),
+  std::filesystem::copy(file("car.state.ppp"), file("golf.state.ppp"));
+  EXPECT_THAT(refusal(car_, {"--state", file("golf.state"), "--config", polo}),
               HasSubstr("it is of the car '', and this is 'polo'"));
 
   std::filesystem::remove(file("car.state.ppp"));
