@@ -48,6 +48,15 @@ bool same_file(const std::string& a, const std::string& b) {
   return first == second || fs::equivalent(first, second, error);
 }
 
+// Whether the file is there, in this folder or in one below.
+bool lies_in(const std::string& file, const std::string& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error) || !fs::is_regular_file(file, error)) return false;
+  const fs::path below =
+      fs::canonical(file, error).lexically_relative(fs::canonical(folder, error));
+  return !error && !below.empty() && *below.begin() != "..";
+}
+
 [[noreturn]] void refuse(const Named& output, const std::string& why) {
   throw std::runtime_error("cannot write '" + output.value + "' (" + output.option + "): " + why +
                            "; give another name");
@@ -81,6 +90,8 @@ void check_outputs(CLI::App& app) {
     for (const Named& input : inputs) {
       if (same_file(outputs[i].value, input.value))
         refuse(outputs[i], "it is read (" + input.option + ")");
+      if (lies_in(outputs[i].value, input.value))
+        refuse(outputs[i], "it is in the folder '" + input.value + "', which is read");
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (same_file(outputs[i].value, outputs[j].value))

@@ -13,7 +13,8 @@ enum class OutputName { file, after_colon, with_ppp };
 CLI::Validator output_place(OutputName name = OutputName::file);
 
 // Throws std::runtime_error if a file that a parsed command is to write is also one that it was
-// given, or is to be written twice. Devices and pipes are left alone.
+// given, is there in a folder that it was given, or is to be written twice. Devices and pipes are
+// left alone.
 void check_outputs(CLI::App& app);
 
 }  // namespace maploop::tools

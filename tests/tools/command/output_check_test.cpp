@@ -34,6 +34,16 @@ TEST_F(OutputCheck, NoOutputReplacesAnInput) {
   refused({"map", "doubts", map_, track_, "-o", track_}, "it is read (TRACK)");
 }
 
+TEST_F(OutputCheck, NoOutputReplacesAFileOfAFolderThatIsRead) {
+  std::filesystem::create_directory(file("drive"));
+  const std::string fixes = write("drive/gnss.csv", "t,lat,lon\n1,49,8\n");
+  refused({"replay", file("drive"), "--lockstep", "--no-lcm", "--csv", fixes},
+          "it is in the folder");
+  refused({"doctor", file("drive"), "--json", file("drive/../drive/gnss.csv")},
+          "it is in the folder");
+  EXPECT_EQ(read_file(fixes), "t,lat,lon\n1,49,8\n");
+}
+
 TEST_F(OutputCheck, ResultsOfSeveralTracksDoNotReplaceThem) {
   const std::string other = write("other.gpx", track), folder = file(".");
   refused({"match", map_, track_, other, "--gpx", folder}, "would replace the track");
