@@ -9,10 +9,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "ppp/models/geodesy.h"
 #include "runtime/core/number_text.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/pose_odometry.h"
 #include "tools/evaluate/log_messages.h"
+#include "tools/evaluate/rtklib_positions.h"
 #include "tools/evaluate/text_file.h"
 
 namespace maploop::evaluation {
@@ -52,6 +54,19 @@ Eigen::Isometry3d kitti_pose(const TextLines& lines) {
   }
 }
 
+StampedTrajectory positions_of(const std::vector<RtklibPosition>& positions) {
+  StampedTrajectory trajectory;
+  trajectory.has_attitude = false;
+  trajectory.origin = ppp::geodetic_from_ecef(positions.front().place);
+  const LocalFrame frame(*trajectory.origin);
+  for (const RtklibPosition& p : positions) {
+    trajectory.stamps.push_back(ppp::to_utc(p.time));
+    trajectory.poses.emplace_back(
+        Eigen::Translation3d(frame.to_enu(ppp::geodetic_from_ecef(p.place))));
+  }
+  return trajectory;
+}
+
 // Returns the columns of recorded truth in the order of TUM's.
 std::vector<std::size_t> columns_of(const TextLines& lines, const Cells& heading) {
   std::vector<std::size_t> columns;
@@ -76,7 +91,8 @@ TumPose tum_pose(const TextLines& lines, const Cells& words) {
 StampedTrajectory read_trajectory(const std::filesystem::path& file, Role role) {
   if (is_lcm_log(file)) return read_log_trajectory(file, role);
   const std::string name = file.string();
-  if (name.ends_with(".pos") || name.ends_with(".pos.gz")) return read_rtklib_positions(file);
+  if (name.ends_with(".pos") || name.ends_with(".pos.gz"))
+    return positions_of(read_rtklib_positions(file));
   const std::string text = read_text(file);
   TextLines lines(text, file.string());
   StampedTrajectory trajectory;

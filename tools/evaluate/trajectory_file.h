@@ -33,15 +33,14 @@ enum class Role { estimate, truth };
 //   KITTI   12 numbers a line, no stamps
 //   TUM     stamp x y z qx qy qz qw, seconds; lines that start with # are skipped
 //   CSV     recorded truth: a heading with the columns t, cam_x ... cam_z, cam_qw ... cam_qz
-//   .pos    RTKLIB's positions, by the file's name: latitude, longitude, height or XYZ, no attitude
+//   .pos    RTKLIB's positions, by the file's name; no attitude (rtklib_positions.h)
 //   log     an LCM log, or the same in an MCAP file or a bag: TRUTH if it is the truth that is
 //           read, else NAV_STATE; of the left camera if there is a CALIBRATION
 // Throws std::runtime_error naming file and line if a line does not have the format, a quaternion
 // does not have length one (to 1e-3), or the stamps do not increase.
 StampedTrajectory read_trajectory(const std::filesystem::path& file, Role role = Role::estimate);
 
-// Read one format of those above.
-StampedTrajectory read_rtklib_positions(const std::filesystem::path& file);
+// Reads the last format of those above.
 StampedTrajectory read_log_trajectory(const std::filesystem::path& file, Role role);
 
 // Reads KITTI's format: the upper 3x4 of the left camera's pose in row-major order, twelve numbers

@@ -151,7 +151,16 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
     throw std::runtime_error(
         "no epoch is left between --start and --end, and outside --gnss-outage");
   }
-  std::move(compared.begin(), compared.end(), std::back_inserter(r.others));
+  for (gnss::OtherSolution& other : compared) {
+    const bool compares =
+        std::any_of(r.solutions.begin(), r.solutions.end(),
+                    [&](const ppp::PppSolution& s) { return other.at(s.time).has_value(); });
+    if (!compares) {
+      std::cerr << "maploop: '" << other.name
+                << "' has no position at the time of an epoch, and is not compared\n";
+    }
+    r.others.push_back(std::move(other));
+  }
   return r;
 }
 
@@ -262,7 +271,7 @@ void add_ppp(CLI::App& app, Command& command) {
       ->check(CLI::ExistingPath);
   sub->add_flag("--broadcast", options->broadcast, "Broadcast orbits even where SP3 is given");
   sub->add_option("--truth", options->truth,
-                  "X,Y,Z in metres, latitude,longitude,height, or a file: RTKLIB's .pos in XYZ, or "
+                  "X,Y,Z in metres, latitude,longitude,height, or a file: RTKLIB's .pos, or "
                   "rows 'index,GPS second,X,Y,Z'");
   sub->add_option("--score-start", options->score_start,
                   "Accuracy is that of the epochs from this one on, the same way as --start; "

@@ -1,7 +1,6 @@
 #include "tools/ppp/other_solution.h"
 
-#include "ppp/models/geodesy.h"
-#include "tools/evaluate/trajectory_file.h"
+#include "tools/evaluate/rtklib_positions.h"
 
 namespace maploop::gnss {
 
@@ -19,15 +18,9 @@ std::optional<Eigen::Vector3d> OtherSolution::at(GpsTime t) const {
 }
 
 OtherSolution read_solution(const std::filesystem::path& file) {
-  const evaluation::StampedTrajectory trajectory = evaluation::read_rtklib_positions(file);
-  const LocalFrame frame(*trajectory.origin);
   OtherSolution solution{file.filename().string()};
-  for (std::size_t i = 0; i < trajectory.stamps.size(); ++i) {
-    // Its calendar is that of GPS time, which has no leap seconds, as the reader's.
-    const GpsTime time(trajectory.stamps[i] - Time(gps_epoch_day));
-    solution.positions[time] =
-        ecef_from_geodetic(frame.to_geodetic(trajectory.poses[i].translation()));
-  }
+  for (const evaluation::RtklibPosition& p : evaluation::read_rtklib_positions(file))
+    solution.positions[p.time] = p.place;
   return solution;
 }
 

@@ -124,9 +124,12 @@ std::string to_nmea(const Solutions& solutions) {
   return text;
 }
 
+// A line has two points at least (RFC 7946, section 3.1.4).
 std::string to_geojson(const Solutions& solutions) {
   std::string points, stamps;
+  int count = 0;
   each_solved(solutions, [&](const PppSolution& s, const LocalSolution& l) {
+    ++count;
     points += fmt::format("{}[{:.9f},{:.9f},{:.4f}]", points.empty() ? "" : ",",
                           degrees(l.place.longitude), degrees(l.place.latitude), l.place.height);
     const std::string utc = format_time(to_utc(s.time));
@@ -134,19 +137,25 @@ std::string to_geojson(const Solutions& solutions) {
                           utc.substr(11, 12));
   });
   return R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"maploop ppp","coordTimes":[)" +
-         stamps + R"(]},"geometry":{"type":"LineString","coordinates":[)" + points + "]}}]}\n";
+         stamps + R"(]},"geometry":)" +
+         (count == 1 ? R"({"type":"Point","coordinates":)" + points
+                     : R"({"type":"LineString","coordinates":[)" + points + ']') +
+         "}}]}\n";
 }
 
 std::string to_kml(const Solutions& solutions) {
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml "
-      "xmlns=\"http://www.opengis.net/kml/2.2\"><Document><name>maploop ppp</name><Placemark>"
-      "<LineString><altitudeMode>clampToGround</altitudeMode><coordinates>\n";
+  std::string points;
+  int count = 0;
   each_solved(solutions, [&](const PppSolution&, const LocalSolution& l) {
-    text += fmt::format("{:.9f},{:.9f},{:.4f}\n", degrees(l.place.longitude),
-                        degrees(l.place.latitude), l.place.height);
+    ++count;
+    points += fmt::format("{:.9f},{:.9f},{:.4f}\n", degrees(l.place.longitude),
+                          degrees(l.place.latitude), l.place.height);
   });
-  return text + "</coordinates></LineString></Placemark></Document></kml>\n";
+  const std::string shape = count == 1 ? "Point" : "LineString";
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml "
+         "xmlns=\"http://www.opengis.net/kml/2.2\"><Document><name>maploop ppp</name><Placemark><" +
+         shape + "><altitudeMode>clampToGround</altitudeMode><coordinates>\n" + points +
+         "</coordinates></" + shape + "></Placemark></Document></kml>\n";
 }
 
 std::string to_residual_csv(const Solutions& solutions) {

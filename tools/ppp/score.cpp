@@ -79,7 +79,7 @@ Accuracy Score::accuracy(std::optional<GpsTime> from) const {
   a.horizontal_rmse_without_mean =
       std::sqrt(std::max(0.0, sum / n - a.mean_enu.head<2>().squaredNorm()));
   std::sort(horizontal.begin(), horizontal.end());
-  a.horizontal_95 = horizontal[static_cast<std::size_t>(0.95 * (n - 1.0))];
+  a.horizontal_95 = horizontal[static_cast<std::size_t>(std::ceil(0.95 * n)) - 1];
   return a;
 }
 

@@ -12,17 +12,18 @@ using nlohmann::json;
 namespace {
 
 json to_json(const Accuracy& a, std::optional<double> below) {
+  const auto figure = [&](double value) { return a.solved > 0 ? json(value) : json(nullptr); };
   return {{"epochs", a.with_truth},
           {"solved", a.solved},
           {"coverage", a.coverage()},
-          {"horizontal_rmse_m", a.horizontal_rmse},
-          {"horizontal_95_m", a.horizontal_95},
-          {"across_rmse_m", a.across_rmse},
-          {"up_rmse_m", a.up_rmse},
-          {"mean_enu_m", {a.mean_enu.x(), a.mean_enu.y(), a.mean_enu.z()}},
-          {"horizontal_rmse_without_mean_m", a.horizontal_rmse_without_mean},
-          {"last_3d_m", a.three_d_last},
-          {"nees", a.nees},
+          {"horizontal_rmse_m", figure(a.horizontal_rmse)},
+          {"horizontal_95_m", figure(a.horizontal_95)},
+          {"across_rmse_m", figure(a.across_rmse)},
+          {"up_rmse_m", figure(a.up_rmse)},
+          {"mean_enu_m", {figure(a.mean_enu.x()), figure(a.mean_enu.y()), figure(a.mean_enu.z())}},
+          {"horizontal_rmse_without_mean_m", figure(a.horizontal_rmse_without_mean)},
+          {"last_3d_m", figure(a.three_d_last)},
+          {"nees", figure(a.nees)},
           {"fixed", a.fixed},
           {"wrongly_fixed", a.wrongly_fixed},
           {"seconds_to_stay_below_0.1_m", below ? json(*below) : json(nullptr)}};
@@ -119,6 +120,17 @@ json heights_to_json(const Solutions& solutions) {
   return all;
 }
 
+template <class File>
+void append_refusals(const File& file, std::vector<std::string>& lines) {
+  if constexpr (requires { file.refused; }) {
+    if (file.refused == 0) return;
+    std::string line = fmt::format("{}: {} refused", file.file, file.refused);
+    if constexpr (requires { file.refusals.front(); })
+      if (!file.refusals.empty()) line += ", first: " + file.refusals.front();
+    lines.push_back(std::move(line));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, double integrity_risk,
@@ -149,12 +161,9 @@ std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, do
   }
   for (const auto& line : run.setup().missing_models()) lines.push_back(line);
   for (const auto& line : run.missing_products()) lines.push_back(line);
-  for (const auto& o : files.observations) {
-    if (o.refused > 0) {
-      lines.push_back(
-          fmt::format("{}: {} refused, first: {}", o.file, o.refused, o.refusals.front()));
-    }
-  }
+  visit_lists([&](auto list) {
+    for (const auto& file : files.*list) append_refusals(file, lines);
+  });
   if (leap_seconds(r.solutions.back().time).out_of_date)
     lines.push_back("the table of leap seconds ends before these data: UTC may be a second off");
   return lines;

@@ -1,13 +1,16 @@
 #include "tools/ppp/truth.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <sstream>
 #include <vector>
 
 #include "msgs/frames.h"
 #include "ppp/models/geodesy.h"
 #include "ppp/readers/files/lines.h"
+#include "tools/evaluate/rtklib_positions.h"
 
 namespace maploop::gnss {
 
@@ -41,6 +44,10 @@ Eigen::Vector3d place_of(const Eigen::Vector3d& p, const std::string& text) {
                   "centre, or latitude,longitude,height in degrees and metres");
 }
 
+bool is_rtklib(const std::string& file) {
+  return file.ends_with(".pos") || file.ends_with(".pos.gz");
+}
+
 }  // namespace
 
 Truth::Truth(const std::string& text, GpsTime near) {
@@ -55,27 +62,38 @@ Truth::Truth(const std::string& text, GpsTime near) {
     throw ReadError("--truth: '" + text +
                     "' is neither X,Y,Z in metres, nor latitude,longitude,height, nor a file");
   }
-  const std::string content = read_file(text);
-  Lines lines(content, text);
+  if (is_rtklib(text)) {
+    read_positions(text);
+  } else {
+    read_rows(text, near);
+  }
+}
+
+// Fixed positions are more exact than others.
+void Truth::read_positions(const std::string& file) {
+  const std::vector<evaluation::RtklibPosition> all = evaluation::read_rtklib_positions(file);
+  const auto fixed = [](const evaluation::RtklibPosition& p) { return p.quality == 1; };
+  const bool some_fixed = std::any_of(all.begin(), all.end(), fixed);
+  if (!some_fixed) {
+    std::cerr << "maploop: '" << file << "' has no fixed position (quality 1); all of its "
+              << all.size() << " positions are taken for the truth\n";
+  }
+  for (const evaluation::RtklibPosition& p : all) {
+    if (!some_fixed || fixed(p)) points_[p.time] = p.place;
+  }
+}
+
+void Truth::read_rows(const std::string& file, GpsTime near) {
+  const std::string content = read_file(file);
+  Lines lines(content, file);
   while (lines.next()) {
     const auto line = lines.line();
-    if (line.empty() || line[0] == '%' || line.find_first_of("0123456789") != 0) continue;
-    if (line.size() > 10 && line[4] == '/') {
-      const auto values = numbers(lines, std::string(columns(line, 23, std::string_view::npos)));
-      if (values.size() < 5) lines.fail("a row of .pos has a stamp, XYZ, quality and satellites");
-      if (values[3] != 1.0) continue;
-      std::string stamp(line.substr(0, 23));
-      for (char& c : stamp) {
-        if (c == '/' || c == ':') c = ' ';
-      }
-      points_[parse_stamp(lines, stamp)] = {values[0], values[1], values[2]};
-    } else {
-      const auto values = numbers(lines, std::string(line));
-      if (values.size() < 5) lines.fail("a row has an index, GPS seconds and XYZ");
-      points_[gps_week_time(gps_week(near), values[1])] = {values[2], values[3], values[4]};
-    }
+    if (line.empty() || line.find_first_of("0123456789") != 0) continue;
+    const auto values = numbers(lines, std::string(line));
+    if (values.size() < 5) lines.fail("a row has an index, GPS seconds and XYZ");
+    points_[gps_week_time(gps_week(near), values[1])] = {values[2], values[3], values[4]};
   }
-  if (points_.empty()) throw ReadError(text + ": no rows of truth");
+  if (points_.empty()) throw ReadError(file + ": no rows of truth");
 }
 
 std::optional<Eigen::Vector3d> Truth::at(GpsTime t) const {

@@ -1,4 +1,5 @@
 // Tests the comparison of several runs with one truth, against errors that are made by hand.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,13 +8,16 @@
 #include <nlohmann/json.hpp>
 
 #include "msgs/frames.h"
+#include "tests/support/error_of.h"
 #include "tests/support/process.h"
 #include "tests/support/real_data.h"
+#include "tools/evaluate/rtklib_positions.h"
 #include "tools/evaluate/run_errors.h"
 
 namespace maploop::evaluation {
 namespace {
 
+using testing::error_of;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -170,33 +174,67 @@ TEST(Comparison, ThePageIsThinnedButKeepsTheExtremes) {
   EXPECT_THAT(to_html(two_runs()), Not(HasSubstr("are thinned")));
 }
 
-TEST(RtklibPositions, TwoFormsOfOnePlaceAreOneAndAFaultIsNamed) {
-  const testing::TemporaryFolder folder;
-  const auto written = [&](const char* name, const std::string& text) {
-    std::ofstream(folder.path() / name) << "%  GPST  latitude(deg) ...\n" << text;
-    return folder.path() / name;
-  };
-  const std::string rest = " 1 12 0.01 0.01 0.01\n";
-  const auto geodetic =
-      written("a.pos", "2021/09/22 06:30:00.000 35.3381 139.5219 60.0" + rest +
-                           "2021/09/22 06:30:01.000 35.3382 139.5219 60.0" + rest);
-  const StampedTrajectory t = read_rtklib_positions(geodetic);
+class RtklibPositions : public ::testing::Test {
+ protected:
+  std::filesystem::path written(const std::string& heading, const std::string& rows) const {
+    const auto file = folder_.path() / "a.pos";
+    std::ofstream(file) << heading << "  Q  ns\n" << rows;
+    return file;
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(RtklibPositions, OfOnePlaceInDegreesAndInXyzAreTheSame) {
+  const auto degrees_file = written("%  GPST  latitude(deg) longitude(deg) height(m)",
+                                    "2021/09/22 06:30:00.000 35.3381 139.5219 60.0 1 12\n"
+                                    "2021/09/22 06:30:01.000 35.3382 139.5219 60.0 6 12\n");
+  const StampedTrajectory t = read_trajectory(degrees_file);
   ASSERT_EQ(t.poses.size(), 2u);
   EXPECT_FALSE(t.has_attitude);
-  EXPECT_EQ(t.stamps[0], parse_time("2021-09-22 06:30:00"));
   EXPECT_NEAR(t.poses[1].translation().y(), 11.1, 0.1);
   EXPECT_NEAR(degrees(t.origin->latitude), 35.3381, 1e-9);
-  const auto bad = written("b.pos", "2176 282600.000 35.3 139.5 60.0" + rest);
-  try {
-    read_rtklib_positions(bad);
-    ADD_FAILURE() << "weeks are not read";
-  } catch (const std::runtime_error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("b.pos:2: "));
-    EXPECT_THAT(e.what(), HasSubstr("out-timeform"));
-  }
+  const auto positions = read_rtklib_positions(degrees_file);
+  EXPECT_EQ(positions[0].quality, 1);
+  EXPECT_EQ(positions[1].quality, 6);
+  const Eigen::Vector3d p = positions[0].place;
+  const auto again = read_rtklib_positions(written(
+      "%  GPST  x-ecef(m) y-ecef(m) z-ecef(m)",
+      fmt::format("2021/09/22 06:30:00.000 {:.4f} {:.4f} {:.4f} 1 12\n", p.x(), p.y(), p.z())));
+  EXPECT_LT((again[0].place - p).norm(), 1e-3);
 }
 
-TEST(RtklibPositions, ARealPairIsComparedAtOnePlace) {
+// All other trajectories are in UTC, 18 s behind GPS time in 2021.
+TEST_F(RtklibPositions, TheHeadingSaysWhichTimeTheyHave) {
+  const std::string row = "2021/09/22 06:30:00.123 35.3381 139.5219 60.0 1 12\n";
+  const std::string rest = "  latitude(deg) longitude(deg) height(m)";
+  EXPECT_EQ(read_trajectory(written("%  GPST" + rest, row)).stamps[0],
+            parse_time("2021-09-22 06:29:42.123"));
+  EXPECT_EQ(read_trajectory(written("%  UTC" + rest, row)).stamps[0],
+            parse_time("2021-09-22 06:30:00.123"));
+  EXPECT_EQ(
+      read_trajectory(written("%  GPST" + rest, "2176 282600.123 35.3381 139.5219 60.0 1 12\n"))
+          .stamps[0],
+      parse_time("2021-09-22 06:29:42.123"));
+}
+
+TEST_F(RtklibPositions, AnglesInMinutesAndTimesThatGoBackAreRefused) {
+  EXPECT_THAT(error_of([&] {
+                read_rtklib_positions(
+                    written("%  GPST  latitude(d'\") longitude(d'\") height(m)",
+                            "2021/09/22 06:30:00.000 35 20 31.4 139 31 19.1 47.2 1 12\n"));
+              }),
+              HasSubstr("degrees, minutes and seconds"));
+  EXPECT_THAT(error_of([&] {
+                read_rtklib_positions(written("%  GPST  latitude(deg) longitude(deg) height(m)",
+                                              "2021/09/22 06:30:01.000 35.3 139.5 60.0 1 12\n"
+                                              "2021/09/22 06:30:00.000 35.3 139.5 60.0 1 12\n"));
+              }),
+              HasSubstr("a.pos: the time of position 2 is not after"));
+}
+
+TEST_F(RtklibPositions, ARealPairIsComparedAtOnePlace) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const auto folder = testing::real_data() / "gnss/kamakura_kinematic";
   const StampedTrajectory truth = read_trajectory(folder / "rtk_reference.pos.gz", Role::truth);
