@@ -1,7 +1,6 @@
 // maploop map doubts: what drives contradict of a map.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -62,9 +61,7 @@ int find_doubts(const DoubtOptions& options) {
         throw std::runtime_error(file.string() + ": " + *why);
       add_doubts(track, matching, pool);
       fixes += track.fixes.size();
-      on_road += static_cast<std::size_t>(
-          std::count_if(track.results.begin(), track.results.end(),
-                        [](const mapmatch::MatchResult& r) { return r.on_road; }));
+      for (const std::size_t i : track.used()) on_road += track.results[i].on_road ? 1 : 0;
     } catch (const std::exception& e) {
       unusable.emplace_back(e.what());
     }

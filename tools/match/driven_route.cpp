@@ -1,10 +1,10 @@
 #include "tools/match/driven_route.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <queue>
+#include <set>
 #include <utility>
-
-#include "mapmatch/match_parameters.h"
 
 namespace maploop::match {
 namespace {
@@ -13,7 +13,6 @@ using mapmatch::DirectedLink;
 using mapmatch::MatchResult;
 using mapmatch::RoadNetwork;
 
-constexpr std::size_t most_links = 8;    // between two fixes
 constexpr double forbidden = 1000.0;     // m that a forbidden turn or direction counts for
 constexpr double least_reach = 100.0;    // m between two fixes, for errors of both ...
 constexpr double reach_per_metre = 3.0;  // ... and times the straight line
@@ -28,7 +27,7 @@ struct Way {
 // Builds a route fix by fix.
 class RouteBuilder {
  public:
-  explicit RouteBuilder(const RoadNetwork& network) : network_(network) {}
+  RouteBuilder(const RoadNetwork& network, double max_gap) : network_(network), max_gap_(max_gap) {}
 
   RoutePlace add(const MatchResult& now) {
     if (!before_ || !go_on(now)) begin(now);
@@ -64,8 +63,7 @@ class RouteBuilder {
   }
 
   bool go_on(const MatchResult& now) {
-    const mapmatch::MatchParameters parameters;
-    if (to_seconds(now.stamp - before_->stamp) > parameters.max_gap) return false;
+    if (to_seconds(now.stamp - before_->stamp) > max_gap_) return false;
     if (now.link == before_->link) return true;
     RouteStep& last = route.pieces.back().back();
     if (now.link == last.link.reversed()) {  // a U-turn on the road
@@ -77,16 +75,30 @@ class RouteBuilder {
     const double straight = (now.point.position - before_->point.position).norm();
     const auto between =
         links_between(network_, last.link, now.link, least_reach + reach_per_metre * straight);
-    if (!between) return false;
+    if (!between || !can_drive(*between, now)) return false;
     drive_on(*between, now);
     return true;
+  }
+
+  // Returns the metres from the end of the route to this place, if these links are in between.
+  double length_to(const std::vector<DirectedLink>& between, const MatchResult& now) const {
+    const RouteStep& last = route.pieces.back().back();
+    double length = network_.link(last.link.link).length - last.to + now.along;
+    for (const DirectedLink link : between) length += network_.link(link.link).length;
+    return length;
+  }
+
+  // Whether a vehicle can have driven there since the fix before, give or take the errors of both.
+  bool can_drive(const std::vector<DirectedLink>& between, const MatchResult& now) const {
+    constexpr double fastest = 70.0;  // m/s
+    return length_to(between, now) <=
+           least_reach + fastest * to_seconds(now.stamp - before_->stamp);
   }
 
   // Drives the rest of the last link, the links in between, and the beginning of the new one.
   void drive_on(const std::vector<DirectedLink>& between, const MatchResult& now) {
     RouteStep& last = route.pieces.back().back();
-    double whole = network_.link(last.link.link).length - last.to + now.along;
-    for (const DirectedLink link : between) whole += network_.link(link.link).length;
+    const double whole = length_to(between, now);
     const Time start = last.left;
     double driven = network_.link(last.link.link).length - last.to;
     const auto at = [&] {
@@ -107,6 +119,7 @@ class RouteBuilder {
   void enter(const RouteStep& step) { route.pieces.back().push_back(step); }
 
   const RoadNetwork& network_;
+  double max_gap_;  // s
   const MatchResult* before_ = nullptr;
   double driven_ = 0.0;  // m of the piece until the last step
 };
@@ -117,6 +130,7 @@ std::optional<std::vector<DirectedLink>> links_between(const RoadNetwork& networ
                                                        DirectedLink from, DirectedLink to,
                                                        double reach) {
   std::priority_queue<Way> open;
+  std::set<std::pair<std::uint32_t, bool>> driven;  // links to which the best way is known
   const auto leave = [&](const Way& way, DirectedLink link) {
     for (const DirectedLink exit : network.exits(network.end_junction(link))) {
       Way next = way;
@@ -135,16 +149,17 @@ std::optional<std::vector<DirectedLink>> links_between(const RoadNetwork& networ
       way.links.pop_back();
       return way.links;
     }
+    if (!driven.emplace(link.link, link.forward).second) continue;
     const double length = network.link(link.link).length;
     way.length += length;
     way.cost += length;
-    if (way.length <= reach && way.links.size() < most_links) leave(way, link);
+    if (way.length <= reach) leave(way, link);
   }
   return {};
 }
 
 DrivenRoute driven_route(const MatchedTrack& track, const RoadNetwork& network) {
-  RouteBuilder builder(network);
+  RouteBuilder builder(network, track.max_gap);
   builder.route.places.resize(track.fixes.size());
   for (const std::size_t i : track.used()) {
     if (track.results[i].on_road) {

@@ -31,14 +31,15 @@ struct DrivenRoute {
   std::vector<std::optional<RoutePlace>> places;  // one for each fix; none if it is on no road
 };
 
-// Returns the links between two links that meet along at most so many metres and 8 links, the
-// legal way if there is one; nothing if there is no way.
+// Returns the links between two links that meet along at most so many metres, the legal way if
+// there is one; nothing if there is no way.
 std::optional<std::vector<mapmatch::DirectedLink>> links_between(
     const mapmatch::RoadNetwork& network, mapmatch::DirectedLink from, mapmatch::DirectedLink to,
     double reach);
 
-// Two fixes are joined by the shortest way of at most 8 links along the map, which is legal if such
-// a way exists. A new piece begins where there is none that the vehicle can have driven.
+// Two fixes are joined by the shortest way along the map, which is legal if such a way exists. A
+// new piece begins where there is none that the vehicle can have driven in the time, and after a
+// gap of the track's `max_gap`.
 DrivenRoute driven_route(const MatchedTrack& track, const mapmatch::RoadNetwork& network);
 
 // Writes the route as the answer of OSRM's match service (project-osrm.org, API version 5):

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "mapmatch/match_parameters.h"
-
 namespace maploop::match {
 namespace {
 
@@ -11,9 +9,8 @@ using mapmatch::MatchResult;
 
 // Returns the metres driven from one matched place to the next. On one link a place that goes back
 // counts as negative, so that a vehicle that stands does not gather length.
-double step(const MatchResult& before, const MatchResult& now) {
-  const mapmatch::MatchParameters parameters;
-  if (to_seconds(now.stamp - before.stamp) > parameters.max_gap) return 0.0;
+double step(const MatchResult& before, const MatchResult& now, double max_gap) {
+  if (to_seconds(now.stamp - before.stamp) > max_gap) return 0.0;
   if (before.link == now.link) return now.along - before.along;
   return (now.point.position - before.point.position).norm();
 }
@@ -40,7 +37,7 @@ std::vector<DrivenStreet> driven_streets(const MatchedTrack& track,
     if (!before || streets.back().name != name) streets.push_back({name, second});
     DrivenStreet& street = streets.back();
     street.to = second;
-    if (before) street.length += step(*before, now);
+    if (before) street.length += step(*before, now, track.max_gap);
     street.probability += now.probability;
     ++street.fixes;
     before = &now;

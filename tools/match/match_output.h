@@ -17,6 +17,7 @@ struct MatchedTrack {
   std::vector<mapmatch::MatchResult> results;                  // one for each fix
   std::string name{};                                          // of its file
   double lane_sigma = mapmatch::MatchParameters{}.lane_sigma;  // m, as the parameter says
+  double max_gap = mapmatch::MatchParameters{}.max_gap;        // s without a fix: matching restarts
 
   // Returns the seconds from the first fix to this one.
   double second(std::size_t fix) const { return to_seconds(fixes[fix].stamp - fixes[0].stamp); }

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "mapmatch/match_history.h"
+#include "msgs/median.h"
 #include "tools/command/progress.h"
 #include "tools/match/driven_route.h"
 #include "tools/match/match_summary.h"
@@ -74,12 +75,23 @@ void refuse_to_replace(std::span<const std::filesystem::path> tracks, const Trac
   }
 }
 
+// Returns the time between fixes that does not interrupt a track whose fixes are this rare, s.
+double usual_gap(const Track& fixes) {
+  constexpr double longest = 300.0;
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < fixes.size(); ++i)
+    intervals.push_back(to_seconds(fixes[i].stamp - fixes[i - 1].stamp));
+  return intervals.empty() ? 0.0 : std::min(3.0 * median(intervals), longest);
+}
+
 }  // namespace
 
 MatchedTrack TrackMatching::match(Track fixes, std::string name,
                                   std::vector<double>* microseconds) const {
-  MatchedTrack track{std::move(fixes), {}, std::move(name), parameters.lane_sigma};
-  mapmatch::Matcher matcher(network, rules, parameters);
+  mapmatch::MatchParameters of_track = parameters;
+  of_track.max_gap = std::max(parameters.max_gap, usual_gap(fixes));
+  MatchedTrack track{std::move(fixes), {}, std::move(name), of_track.lane_sigma, of_track.max_gap};
+  mapmatch::Matcher matcher(network, rules, of_track);
   mapmatch::MatchHistory history(network);
   track.results.reserve(track.fixes.size());
   for (const mapmatch::VehicleFix& fix : track.fixes) {

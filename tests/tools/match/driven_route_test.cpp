@@ -10,11 +10,13 @@
 #include "tests/mapmatch/small_map.h"
 #include "tests/support/real_data.h"
 #include "tools/evaluate/text_file.h"
+#include "tools/match/track_matching.h"
 
 namespace maploop::match {
 namespace {
 
 using maploop::testing::drive;
+using maploop::testing::one_way;
 using maploop::testing::SmallMap;
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
@@ -84,6 +86,34 @@ TEST(DrivenRoute, ABreakAndAFieldBeginANewPiece) {
   auto fixes = drive({{10, 0}, {630, 0}}, 10.0, 10.0);
   for (std::size_t i = 300; i < fixes.size(); ++i) fixes[i].stamp += std::chrono::seconds(100);
   EXPECT_THAT(driven_route(matched(network, fixes), network).pieces, SizeIs(2));
+}
+
+TEST(DrivenRoute, OfRareFixesIsOnePiece) {
+  const auto network = row();
+  const auto rules = mapmatch::read_rule_bases(mapmatch::default_rules());
+  const mapmatch::MatchParameters parameters;
+  const TrackMatching matching{network, rules, parameters};
+  const auto track = matching.match(drive({{10, 0}, {630, 0}}, 10.0, 0.05), "rare", nullptr);
+  ASSERT_GT(track.second(1), parameters.max_gap);
+  const DrivenRoute route = driven_route(track, network);
+  ASSERT_THAT(route.pieces, SizeIs(1));
+  EXPECT_THAT(ways(route.pieces[0], network), ElementsAre(10, 11, 12));
+}
+
+TEST(DrivenRoute, HasNoLegThatNoVehicleCanDrive) {
+  SmallMap map;
+  map.node(1, 0, 0).node(2, 1000, 0).node(3, 1000, 12).node(4, 0, 12);
+  const auto network =
+      map.way(10, {1, 2}, one_way()).way(11, {2, 3}).way(12, {3, 4}, one_way()).network();
+  // The position hops to the other side of a road that only meets it a kilometre on.
+  auto fixes = drive({{10, 0}, {400, 0}}, 10.0, 1.0);
+  const auto other = drive({{390, 12}, {10, 12}}, 10.0, 1.0);
+  for (auto fix : other) {
+    fix.stamp += fixes.back().stamp - other.front().stamp + std::chrono::seconds(1);
+    fixes.push_back(fix);
+  }
+  const DrivenRoute route = driven_route(matched(network, fixes), network);
+  for (const DrivenRoute::Piece& piece : route.pieces) EXPECT_LT(length(piece), 700.0);
 }
 
 TEST(DrivenRoute, OfNoFixOnARoadIsEmpty) {

@@ -35,7 +35,7 @@ class RouteScoreTest : public ::testing::Test {
     result.link = *link;
     result.along = along;
     result.point = network_.at(*link, along);
-    result.stamp = Time(std::chrono::seconds(rows_.size() + 1));
+    result.stamp = Time(std::chrono::seconds(5 * (rows_.size() + 1)));
     mapmatch::VehicleFix fix;
     fix.stamp = result.stamp;
     track_.fixes.push_back(fix);
