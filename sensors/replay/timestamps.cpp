@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -32,25 +33,46 @@ void leave_out_of_order(const std::vector<Time>& stamps, const std::filesystem::
   }
 }
 
-// Takes increasing stamps. If they have gaps longer than any recording has, keeps the part with the
-// most frames (the earliest of several).
-void leave_out_of_reach(const std::vector<Time>& stamps, const std::filesystem::path& file,
-                        Verdicts& verdicts) {
-  using input_limits::longest_gap, input_limits::within;
-  struct Part {
-    std::size_t begin = 0, end = 0, frames = 0;
-  };
-  Part best, part;
-  const Time* last = nullptr;
+// Frames without a gap longer than any recording has.
+struct Part {
+  std::size_t begin = 0, end = 0, frames = 0;
+  Time first{}, last{};
+};
+
+std::vector<Part> parts_of(const std::vector<Time>& stamps, const Verdicts& verdicts) {
+  std::vector<Part> parts;
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     if (verdicts[i]) continue;
-    if (last != nullptr && !within(longest_gap, *last, stamps[i])) part = {i, i, 0};
-    last = &stamps[i];
-    part = {part.begin, i + 1, part.frames + 1};
-    if (part.frames > best.frames) best = part;
+    if (parts.empty() ||
+        !input_limits::within(input_limits::longest_gap, parts.back().last, stamps[i]))
+      parts.push_back({i, i, 0, stamps[i], stamps[i]});
+    parts.back().end = i + 1;
+    parts.back().last = stamps[i];
+    ++parts.back().frames;
   }
+  return parts;
+}
+
+// Takes increasing stamps. Keeps the part with the most frames (the earliest of several), and the
+// parts before and after it that a pause of the recording explains: a single stamp does not show
+// one.
+void leave_out_of_reach(const std::vector<Time>& stamps, const std::filesystem::path& file,
+                        Verdicts& verdicts) {
+  const std::vector<Part> parts = parts_of(stamps, verdicts);
+  if (parts.empty()) return;
+  const auto pause = [](const Part& a, const Part& b) {
+    return input_limits::within(input_limits::longest_pause, a.last, b.first);
+  };
+  auto first = std::max_element(parts.begin(), parts.end(),
+                                [](const Part& a, const Part& b) { return a.frames < b.frames; });
+  auto last = first;
+  while (first != parts.begin() && std::prev(first)->frames > 1 && pause(*std::prev(first), *first))
+    --first;
+  while (std::next(last) != parts.end() && std::next(last)->frames > 1 &&
+         pause(*last, *std::next(last)))
+    ++last;
   for (std::size_t i = 0; i < stamps.size(); ++i) {
-    if (verdicts[i] || (i >= best.begin && i < best.end)) continue;
+    if (verdicts[i] || (i >= first->begin && i < last->end)) continue;
     verdicts[i] = Finding{file.string(), i + 1,
                           format_time(stamps[i]) + " is more than an hour from the other stamps"};
   }

@@ -85,7 +85,15 @@ TEST(TimeOrder, OfStampsHoursApartTheLongestPartStays) {
   EXPECT_EQ(remaining({1, 2, 3, 3 + hours}), (Frames{0, 1, 2, 3})) << "not more than an hour";
   EXPECT_EQ(remaining({1, 2, 3, 4 + hours}), (Frames{0, 1, 2})) << "at the end";
   EXPECT_EQ(remaining({1, 2 * hours, 2 * hours + 1}), (Frames{1, 2})) << "at the begin";
-  EXPECT_EQ(remaining({1, 2, 9 * hours, 9 * hours + 1}), (Frames{0, 1})) << "the earliest of two";
+  EXPECT_EQ(remaining({1, 2, 30 * hours, 30 * hours + 1}), (Frames{0, 1})) << "the earliest of two";
+}
+
+TEST(TimeOrder, APauseOfLessThanADayKeepsBothParts) {
+  constexpr int hours = 3600;
+  EXPECT_EQ(remaining({1, 2, 3, 9 * hours, 9 * hours + 1}), (Frames{0, 1, 2, 3, 4}));
+  EXPECT_EQ(remaining({1, 2, 9 * hours, 9 * hours + 1, 9 * hours + 2}), (Frames{0, 1, 2, 3, 4}));
+  EXPECT_EQ(remaining({1, 2, 9 * hours, 12 * hours, 12 * hours + 1}), (Frames{0, 1}))
+      << "a single stamp between is not believed";
 }
 
 TEST(Timestamps, OfMoreFramesThanARecordingHasAreRefused) {

@@ -143,6 +143,12 @@ void Replay::look_ahead() const {
     throw std::runtime_error("--speed-scale: the recording '" + options_.drive.string() +
                              "' has no wheel speeds to scale");
   }
+  if (options_.speed_scale && !recording_.wheels_are_made) {
+    throw std::runtime_error(
+        "--speed-scale: the recording '" + options_.drive.string() +
+        "' has wheel speeds of its own, which are used as they are; only those "
+        "that are made from a recorder's speed can be scaled");
+  }
   for (const std::filesystem::path& file : {options_.poses, options_.tum}) {
     if (!file.empty() && sensors.camera == nullptr && sensors.odometry == nullptr) {
       throw std::runtime_error("'" + file.string() +

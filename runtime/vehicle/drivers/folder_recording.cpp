@@ -138,6 +138,7 @@ Recording open_folder(const fs::path& folder, const VehicleConfig& config) {
   recording.first_stamp = drive->first_stamp();
   recording.last_stamp = drive->last_stamp();
   recording.images = drive->frame_count();
+  recording.wheels_are_made = drive->has_oxts() && drive->tables() == nullptr;
   recording.notes = drive->notes();
   recording.delays = drive->has_oxts() ? delays_of_oxts(config) : delays_of(config);
   VehicleConfig car = config;

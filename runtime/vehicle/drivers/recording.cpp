@@ -79,6 +79,7 @@ Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& 
   if (const auto& labels = sequence->labels_file())
     recording.driven_links = {*labels, sequence->image_stamps()};
   if (tracks != nullptr) recording.calibration.stereo = tracks->calibration;
+  recording.wheels_are_made = true;
   return recording;
 }
 

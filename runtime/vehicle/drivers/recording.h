@@ -37,7 +37,8 @@ struct Recording {
   VehicleCalibration calibration;
   Time first_stamp{};  // as recorded, of the images; if there are none, of epochs or scans
   Time last_stamp{};
-  std::size_t images = 0;  // number of images; if there are none, of epochs or scans
+  std::size_t images = 0;        // number of images; if there are none, of epochs or scans
+  bool wheels_are_made = false;  // wheel speeds are made from the recorder's speed
   // Returns new sources of the sensors that were recorded, each from the start. Pixels and points
   // of samples that are available up to `passed` may be missing, which saves reading them.
   std::function<Sensors(Time passed)> sensors;
