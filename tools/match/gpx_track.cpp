@@ -128,6 +128,11 @@ class GpxReader {
     });
     Track track;
     for (const Track& segment : segments_) {
+      if (!track.empty() && segment.front().stamp < track.back().stamp) {
+        throw std::runtime_error(name_ +
+                                 ": two of its tracks or segments overlap in time; give the tracks "
+                                 "of several vehicles as files of their own");
+      }
       for (const mapmatch::VehicleFix& fix : segment) keep(fix, name_, track);
     }
     return track;

@@ -37,6 +37,9 @@ class NmeaTrackReader {
       fix.position = place(s, 2);
       fix.speed = knot * s.number(6).value_or(unknown);
       fix.azimuth = radians(s.number(7).value_or(unknown));
+    } else if (s.kind == "ZDA" && s.count >= 4 && s.field(3).size() == 4) {
+      const std::string day(s.field(1)), month(s.field(2)), year(s.field(3).substr(2));
+      date_ = sensors::nmea_date(day + month + year).value_or(date_);
     } else if (s.kind == "GGA" && s.count >= 8 && s.field(5) != "0") {
       mapmatch::VehicleFix& fix = at(s.field(0));
       fix.position = place(s, 1);

@@ -134,6 +134,21 @@ TEST(GpxTrack, SegmentsAreInTheOrderOfTheirTime) {
   for (std::size_t i = 1; i < 4; ++i) EXPECT_LT(track[i - 1].stamp, track[i].stamp);
 }
 
+TEST(GpxTrack, TracksOfTwoVehiclesAreRefused) {
+  const std::string gpx = gpx_of(gpx_point("05") + gpx_point("25") + "</trkseg><trkseg>" +
+                                 gpx_point("06") + gpx_point("26") + "</trkseg><trkseg>");
+  EXPECT_THAT(refusal([&] { parse_gpx_track(gpx, "a.gpx", {}); }), HasSubstr("overlap in time"));
+}
+
+TEST(NmeaTrack, ZdaHasTheDateOfGga) {
+  const Track track = parse_nmea_track(
+      "$GPZDA,123519.00,22,09,2021,00,00\r\n"
+      "$GPGGA,123519.00,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,\r\n",
+      "a.nmea", {});
+  ASSERT_EQ(track.size(), 1u);
+  EXPECT_EQ(format_time(track[0].stamp).substr(0, 19), "2021-09-22 12:35:19");
+}
+
 TEST(NmeaTrack, AfterMidnightItIsTheNextDayAlsoWithoutADate) {
   const Track track = parse_nmea_track(
       "$GPGGA,235959.00,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,\r\n"

@@ -84,6 +84,49 @@ TEST(ObservationFile, ACarAtOneHertz) {
   EXPECT_FALSE(signal->lost_lock);
 }
 
+class ChangedCar : public ::testing::Test {
+ protected:
+  static std::string whole() { return read_file(gnss("kamakura_kinematic/SEPT265G.21O.gz")); }
+  void SetUp() override {
+    MAPLOOP_REQUIRE_REAL_DATA();
+    text_ = whole();
+  }
+
+  // Returns the place of an epoch's line, from 0.
+  std::size_t epoch(int number) const {
+    std::size_t at = 0;
+    for (int i = 0; i <= number; ++i) at = text_.find("\n> ", at) + 1;
+    return at;
+  }
+  Observations parsed() const { return parse_observations(text_, "car.21O"); }
+
+  std::string text_;
+};
+
+TEST_F(ChangedCar, OneWrongDateCostsOneEpoch) {
+  const std::size_t epochs = parsed().epochs.size();
+  for (const int wrong : {0, 5, 100}) {
+    text_ = whole();
+    text_.replace(epoch(wrong), 12, "> 2021 09 23");
+    const Observations o = parsed();
+    EXPECT_EQ(o.epochs.size(), epochs - 1) << wrong;
+    EXPECT_EQ(o.refused, 1) << wrong;
+    ASSERT_EQ(o.refusals.size(), 1u);
+    EXPECT_NE(o.refusals[0].find("its date is taken to be wrong"), std::string::npos);
+  }
+}
+
+TEST_F(ChangedCar, AnAntennaThatIsMovedIsSaid) {
+  text_.insert(
+      epoch(17),
+      "> 2021 09 22 06 30 17.0000000  4  1\n"
+      "        5.0000        0.0000        0.0000                  ANTENNA: DELTA H/E/N\n");
+  const Observations o = parsed();
+  EXPECT_EQ(o.header.antenna_delta_enu.z(), 0.0);
+  ASSERT_EQ(o.refusals.size(), 1u);
+  EXPECT_NE(o.refusals[0].find("split the file"), std::string::npos);
+}
+
 TEST(ObservationFile, EveryRealSampleIsRead) {
   MAPLOOP_REQUIRE_REAL_DATA();
   EXPECT_GT(read("parser_samples/KUNZ00CZE.crx").epochs.size(), 1U);
