@@ -21,11 +21,8 @@ bool knows_course(const FilterState& state) {
 
 Outcome ReducedImuFilter::start(const GnssFix& fix) {
   Reason reason = check_fix(fix, parameters_);
-  if (reason == Reason::no_course) {
-    if (!slow_fix_) slow_since_ = fix.stamp;
-    const bool late = fix.stamp - slow_since_ >= from_seconds(parameters_.late_course_after);
-    if (late && shows_late_course(fix, parameters_)) reason = Reason::none;
-  }
+  if (reason == Reason::no_course && waited_for_course(fix) && shows_late_course(fix, parameters_))
+    reason = Reason::none;
   if (reason == Reason::no_course) {
     status_.phase = Phase::waiting_for_motion;
     if (!slow_fix_ || slow_fix_->stamp < fix.stamp) slow_fix_ = fix;
@@ -35,6 +32,13 @@ Outcome ReducedImuFilter::start(const GnssFix& fix) {
       start_with(reason, start_stamp(fix), fix.position, [&] { return state_from(fix); });
   if (!outcome.refused()) started_from_ = fix;
   return outcome;
+}
+
+// Counts from the first fix that moves, because a velocity becomes certain only then.
+bool ReducedImuFilter::waited_for_course(const GnssFix& fix) {
+  if (fix.velocity_enu.head<2>().norm() < parameters_.min_course_speed) return false;
+  if (uncertain_since_ == Time{} || fix.stamp < uncertain_since_) uncertain_since_ = fix.stamp;
+  return fix.stamp - uncertain_since_ >= from_seconds(parameters_.late_course_after);
 }
 
 void ReducedImuFilter::set_origin(const Geodetic& origin) {
@@ -182,6 +186,7 @@ void ReducedImuFilter::restart() {
   history_.past = {};
   initialized_ = false;
   slow_fix_.reset();
+  uncertain_since_ = {};
   guard_.reset();
   imu_clock_ = {};
   if (!dropped(status_.place)) status_.place = PlaceUse::none;  // it was of the old clock

@@ -211,7 +211,7 @@ void ReducedImuFilter::describe(Archive& ar, Filter& f) {
   archive_same_parameters(ar, f.parameters_);
   Geodetic origin = f.frame_.origin();
   ar(f.remembered_, f.last_place_, f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_,
-     f.started_from_, f.slow_fix_, f.slow_since_, f.initialized_, f.status_);
+     f.started_from_, f.slow_fix_, f.uncertain_since_, f.initialized_, f.status_);
   if constexpr (Archive::loading) {
     f.frame_ = LocalFrame(origin);
     f.earth_ = LocalEarth(origin);

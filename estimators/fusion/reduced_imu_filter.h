@@ -172,6 +172,7 @@ class ReducedImuFilter {
   }
 
   Outcome start(const GnssFix& fix);
+  bool waited_for_course(const GnssFix& fix);
   void set_origin(const Geodetic& origin);
   FilterState state_from(const GnssFix& fix) const;
   template <class MakeState>
@@ -203,7 +204,7 @@ class ReducedImuFilter {
   EventHistory history_;
   std::optional<GnssFix> started_from_;
   std::optional<GnssFix> slow_fix_;  // the last one from before the start that shows no course
-  Time slow_since_{};                // the first one of these
+  Time uncertain_since_{};           // of the first one of these that moves; epoch 0: none
   bool initialized_ = false;
   FilterStatus status_;
 };

@@ -13,10 +13,11 @@ bool plausible_stamp(Time stamp);
 
 // A stamp older than the history is too old. A stamp ahead of all others by more than `confirm_gap`
 // may be a fault that would make all other data look late. It is refused, and the next stamp is
-// accepted if it is within `confirm_gap` of it and at most `max_gap` ahead, or as far after it as
-// it was after the others: then the data comes so rarely, as the fixes of a slow receiver alone,
-// and the gap up to which stamps need no second one is half as long again as theirs. If only such
-// refusals arrive, the clock of the data itself has jumped.
+// accepted if it is within `confirm_gap` of it and at most `max_gap` ahead, or if it is as far
+// after it as it was after the others. In the latter case the data is rare, as the fixes of a slow
+// receiver alone: from then on `confirm_gap` is half as long again as their interval, and `max_gap`
+// is at least four intervals. If only such refusals arrive, the clock of the data itself has
+// jumped.
 class StampGuard {
  public:
   explicit StampGuard(const FusionParameters& parameters);
@@ -45,7 +46,7 @@ class StampGuard {
   int restart_after_;
   Time newest_{};
   Time unconfirmed_{};   // the last stamp refused for being too far ahead
-  Duration interval_{};  // between stamps lately, the longest; it fades within some of them
+  Duration interval_{};  // between recent stamps; a longest one is halved by each shorter one
   int refused_in_a_row_ = 0;
 };
 

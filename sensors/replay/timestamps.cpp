@@ -54,25 +54,29 @@ std::vector<Part> parts_of(const std::vector<Time>& stamps, const Verdicts& verd
 }
 
 // Takes increasing stamps. Keeps the part with the most frames (the earliest of several), and the
-// parts before and after it that a pause of the recording explains: a single stamp does not show
-// one.
+// parts before and after it that a pause of the recording explains. A single stamp does not show a
+// pause.
 void leave_out_of_reach(const std::vector<Time>& stamps, const std::filesystem::path& file,
                         Verdicts& verdicts) {
-  const std::vector<Part> parts = parts_of(stamps, verdicts);
+  std::vector<Part> parts = parts_of(stamps, verdicts);
   if (parts.empty()) return;
+  const auto fewer = [](const Part& a, const Part& b) { return a.frames < b.frames; };
+  const Part most = *std::max_element(parts.begin(), parts.end(), fewer);
+  std::erase_if(parts, [&](const Part& p) { return p.frames == 1 && p.begin != most.begin; });
   const auto pause = [](const Part& a, const Part& b) {
     return input_limits::within(input_limits::longest_pause, a.last, b.first);
   };
-  auto first = std::max_element(parts.begin(), parts.end(),
-                                [](const Part& a, const Part& b) { return a.frames < b.frames; });
+  auto first = std::find_if(parts.begin(), parts.end(),
+                            [&](const Part& p) { return p.begin == most.begin; });
   auto last = first;
-  while (first != parts.begin() && std::prev(first)->frames > 1 && pause(*std::prev(first), *first))
-    --first;
-  while (std::next(last) != parts.end() && std::next(last)->frames > 1 &&
-         pause(*last, *std::next(last)))
-    ++last;
+  while (first != parts.begin() && pause(*std::prev(first), *first)) --first;
+  while (std::next(last) != parts.end() && pause(*last, *std::next(last))) ++last;
+  std::vector<bool> kept(stamps.size(), false);
+  for (auto part = first; part != std::next(last); ++part)
+    std::fill(kept.begin() + static_cast<std::ptrdiff_t>(part->begin),
+              kept.begin() + static_cast<std::ptrdiff_t>(part->end), true);
   for (std::size_t i = 0; i < stamps.size(); ++i) {
-    if (verdicts[i] || (i >= first->begin && i < last->end)) continue;
+    if (verdicts[i] || kept[i]) continue;
     verdicts[i] = Finding{file.string(), i + 1,
                           format_time(stamps[i]) + " is more than an hour from the other stamps"};
   }

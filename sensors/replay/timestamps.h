@@ -36,8 +36,9 @@ std::optional<Finding> verdict(const Timestamps& timestamps, std::size_t i);
 
 // Gives a verdict to the frames that break the order of time. Among those without a verdict, the
 // longest strictly increasing subsequence is kept (the earliest of several), so that one wrong
-// stamp costs one frame and not all that follow it. If parts of it are more than
-// input_limits::longest_gap apart, the part with the most frames is kept. The verdicts name `file`.
+// stamp costs one frame and not all that follow it. Of parts that are more than
+// input_limits::longest_gap apart, the one with the most frames is kept, and those of several
+// frames that follow or precede it within input_limits::longest_pause. The verdicts name `file`.
 void refuse_out_of_order(const std::vector<Time>& stamps, const std::filesystem::path& file,
                          Verdicts& verdicts);
 

@@ -92,7 +92,7 @@ TEST(TimeOrder, APauseOfLessThanADayKeepsBothParts) {
   constexpr int hours = 3600;
   EXPECT_EQ(remaining({1, 2, 3, 9 * hours, 9 * hours + 1}), (Frames{0, 1, 2, 3, 4}));
   EXPECT_EQ(remaining({1, 2, 9 * hours, 9 * hours + 1, 9 * hours + 2}), (Frames{0, 1, 2, 3, 4}));
-  EXPECT_EQ(remaining({1, 2, 9 * hours, 12 * hours, 12 * hours + 1}), (Frames{0, 1}))
+  EXPECT_EQ(remaining({1, 2, 9 * hours, 12 * hours, 12 * hours + 1}), (Frames{0, 1, 3, 4}))
       << "a single stamp between is not believed";
 }
 

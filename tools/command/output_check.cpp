@@ -18,6 +18,7 @@ constexpr std::array marks{"output", "output after a colon", "output with .ppp"}
 
 struct Named {
   std::string option, value;
+  bool is_read_too = false;  // what an earlier run wrote there
 };
 
 std::optional<OutputName> output_name(CLI::Option& option) {
@@ -80,7 +81,7 @@ void check_outputs(CLI::App& app) {
       for (const std::string& value : values) {
         if (!name) inputs.push_back({option->get_name(), value});
         for (const std::string& file : name ? files_of(value, *name) : std::vector<std::string>())
-          outputs.push_back({option->get_name(), file});
+          outputs.push_back({option->get_name(), file, name == OutputName::with_ppp});
       }
     }
     const auto subs = sub->get_subcommands();
@@ -90,8 +91,10 @@ void check_outputs(CLI::App& app) {
     for (const Named& input : inputs) {
       if (same_file(outputs[i].value, input.value))
         refuse(outputs[i], "it is read (" + input.option + ")");
-      if (lies_in(outputs[i].value, input.value))
-        refuse(outputs[i], "it is in the folder '" + input.value + "', which is read");
+      if (!outputs[i].is_read_too && lies_in(outputs[i].value, input.value)) {
+        refuse(outputs[i], "it is there in the folder '" + input.value +
+                               "', which is read; remove it first if it is an earlier result");
+      }
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (same_file(outputs[i].value, outputs[j].value))

@@ -1,5 +1,6 @@
 #include "tools/evaluate/rtklib_positions.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -12,9 +13,9 @@
 namespace maploop::evaluation {
 namespace {
 
-// The table's seconds count from 1970 in its own scale. RTKLIB's times have whole milliseconds.
+// The table's seconds count from 1970 in its own scale, as doubles: to less than a microsecond.
 Time calendar_of(double seconds) {
-  return Time(std::chrono::milliseconds(std::llround(1e3 * seconds)));
+  return Time(std::chrono::microseconds(std::llround(1e6 * seconds)));
 }
 
 }  // namespace
@@ -23,12 +24,14 @@ std::vector<RtklibPosition> read_rtklib_positions(const std::filesystem::path& f
   const sensors::NumberTable table(file);
   const bool gpst = table.has("GPST"), geodetic = table.has("latitude");
   const std::size_t time = table.column(gpst ? "GPST" : "UTC");
-  const std::size_t place = table.column(geodetic ? "latitude" : "x-ecef");
+  const std::array place{table.column(geodetic ? "latitude" : "x-ecef"),
+                         table.column(geodetic ? "longitude" : "y-ecef"),
+                         table.column(geodetic ? "height" : "z-ecef")};
   std::vector<RtklibPosition> positions;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const auto row = table.row(i);
     const Time calendar = calendar_of(row[time]);
-    const Eigen::Vector3d p(row[place], row[place + 1], row[place + 2]);
+    const Eigen::Vector3d p(row[place[0]], row[place[1]], row[place[2]]);
     RtklibPosition& position = positions.emplace_back();
     position.time =
         gpst ? ppp::GpsTime(calendar - Time(ppp::gps_epoch_day)) : ppp::from_utc(calendar);

@@ -29,7 +29,9 @@ struct DoubtOptions : MatchInputOptions {
 
 void add_doubts(const match::MatchedTrack& track, const match::TrackMatching& matching,
                 match::DoubtPool& pool) {
-  mapmatch::DoubtCollector collector(matching.network, matching.parameters);
+  mapmatch::MatchParameters parameters = matching.parameters;
+  parameters.max_gap = track.max_gap;
+  mapmatch::DoubtCollector collector(matching.network, parameters);
   const auto take = [&](std::span<const MapDoubt> some) {
     for (const MapDoubt& doubt : some) pool.add(doubt, track.name);
   };

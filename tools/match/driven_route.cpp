@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <queue>
-#include <set>
 #include <utility>
 
 namespace maploop::match {
@@ -16,6 +16,7 @@ using mapmatch::RoadNetwork;
 constexpr double forbidden = 1000.0;     // m that a forbidden turn or direction counts for
 constexpr double least_reach = 100.0;    // m between two fixes, for errors of both ...
 constexpr double reach_per_metre = 3.0;  // ... and times the straight line
+constexpr double fastest = 70.0;         // m/s
 
 // A way that has left its first link.
 struct Way {
@@ -73,8 +74,10 @@ class RouteBuilder {
       return true;
     }
     const double straight = (now.point.position - before_->point.position).norm();
+    const double farthest = fastest * to_seconds(now.stamp - before_->stamp);
     const auto between =
-        links_between(network_, last.link, now.link, least_reach + reach_per_metre * straight);
+        links_between(network_, last.link, now.link,
+                      least_reach + std::min(reach_per_metre * straight, farthest));
     if (!between || !can_drive(*between, now)) return false;
     drive_on(*between, now);
     return true;
@@ -90,7 +93,6 @@ class RouteBuilder {
 
   // Whether a vehicle can have driven there since the fix before, give or take the errors of both.
   bool can_drive(const std::vector<DirectedLink>& between, const MatchResult& now) const {
-    constexpr double fastest = 70.0;  // m/s
     return length_to(between, now) <=
            least_reach + fastest * to_seconds(now.stamp - before_->stamp);
   }
@@ -130,7 +132,7 @@ std::optional<std::vector<DirectedLink>> links_between(const RoadNetwork& networ
                                                        DirectedLink from, DirectedLink to,
                                                        double reach) {
   std::priority_queue<Way> open;
-  std::set<std::pair<std::uint32_t, bool>> driven;  // links to which the best way is known
+  std::map<std::pair<std::uint32_t, bool>, double> driven;  // the shortest way to each link, m
   const auto leave = [&](const Way& way, DirectedLink link) {
     for (const DirectedLink exit : network.exits(network.end_junction(link))) {
       Way next = way;
@@ -149,7 +151,9 @@ std::optional<std::vector<DirectedLink>> links_between(const RoadNetwork& networ
       way.links.pop_back();
       return way.links;
     }
-    if (!driven.emplace(link.link, link.forward).second) continue;
+    const auto [before, is_new] = driven.emplace(std::pair(link.link, link.forward), way.length);
+    if (!is_new && way.length >= before->second) continue;
+    before->second = way.length;
     const double length = network.link(link.link).length;
     way.length += length;
     way.cost += length;

@@ -40,6 +40,7 @@ class NmeaTrackReader {
     } else if (s.kind == "ZDA" && s.count >= 4 && s.field(3).size() == 4) {
       const std::string day(s.field(1)), month(s.field(2)), year(s.field(3).substr(2));
       date_ = sensors::nmea_date(day + month + year).value_or(date_);
+      if (!track_.empty() && s.field(0) == time_) track_.back().stamp = stamp(time_);
     } else if (s.kind == "GGA" && s.count >= 8 && s.field(5) != "0") {
       mapmatch::VehicleFix& fix = at(s.field(0));
       fix.position = place(s, 1);
@@ -47,10 +48,11 @@ class NmeaTrackReader {
     } else if (s.kind == "GST" && s.count >= 7) {
       const double north = s.number(5).value_or(0.0), east = s.number(6).value_or(0.0);
       const double least = options_.min_sigma;
-      if (north > 0.0 && east > 0.0)
+      if (north > 0.0 && east > 0.0) {
         at(s.field(0)).covariance =
             Eigen::Vector2d(std::pow(std::max(least, east), 2), std::pow(std::max(least, north), 2))
                 .asDiagonal();
+      }
     }
   }
 
@@ -102,9 +104,10 @@ Track parse_nmea_track(std::string_view text, std::string_view name, const Track
     if (const auto parsed = sensors::parse_nmea(sentence)) reader.take(*parsed);
   }
   Track track = reader.finish();
-  if (track.empty())
+  if (track.empty()) {
     throw std::runtime_error(std::string(name) +
                              " has no valid position in an RMC or GGA sentence");
+  }
   return track;
 }
 

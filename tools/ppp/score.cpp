@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ppp/models/geodesy.h"
+#include "tools/evaluate/evaluation.h"
 
 namespace maploop::gnss {
 
@@ -79,7 +80,7 @@ Accuracy Score::accuracy(std::optional<GpsTime> from) const {
   a.horizontal_rmse_without_mean =
       std::sqrt(std::max(0.0, sum / n - a.mean_enu.head<2>().squaredNorm()));
   std::sort(horizontal.begin(), horizontal.end());
-  a.horizontal_95 = horizontal[static_cast<std::size_t>(std::ceil(0.95 * n)) - 1];
+  a.horizontal_95 = evaluation::quantile(horizontal, 0.95);
   return a;
 }
 

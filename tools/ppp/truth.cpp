@@ -89,6 +89,8 @@ void Truth::read_rows(const std::string& file, GpsTime near) {
   while (lines.next()) {
     const auto line = lines.line();
     if (line.empty() || line.find_first_of("0123456789") != 0) continue;
+    if (line.size() > 10 && line[4] == '/')
+      lines.fail("this is a row of RTKLIB's positions; give the file a name that ends in .pos");
     const auto values = numbers(lines, std::string(line));
     if (values.size() < 5) lines.fail("a row has an index, GPS seconds and XYZ");
     points_[gps_week_time(gps_week(near), values[1])] = {values[2], values[3], values[4]};

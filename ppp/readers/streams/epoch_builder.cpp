@@ -80,6 +80,8 @@ void append_satellite(Observations& observations, const Lines& lines, Satellite 
 namespace {
 
 // Whether the last epoch has a wrong date: it is far ahead of its neighbours, which are in order.
+// Of the first two of a file, nothing tells which one is wrong: the second is believed, because
+// otherwise a wrong first date would cost the whole file.
 bool last_was_ahead(const std::vector<Epoch>& epochs, GpsTime next) {
   constexpr Duration far = std::chrono::minutes(10);
   const GpsTime last = epochs.back().time;
@@ -97,6 +99,7 @@ void keep_epoch(Observations& observations, const Lines& lines, Epoch& epoch) {
            "epoch " + format_gps_time(observations.epochs.back().time) +
                " is far after this one, " + format_gps_time(epoch.time) +
                ", which follows it: its date is taken to be wrong");
+    epoch.power_failure |= observations.epochs.back().power_failure;
     observations.epochs.pop_back();
   }
   if (!observations.epochs.empty() && epoch.time <= observations.epochs.back().time) {

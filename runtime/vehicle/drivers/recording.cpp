@@ -215,7 +215,12 @@ Recording open_recording(const std::filesystem::path& path, const VehicleConfig&
 KnownContents fit_to_recording(VehicleConfig& config, const std::filesystem::path& path) {
   std::optional<FusedSensors> there;
   KnownContents contents;
-  if (sensors::is_bag(path)) {
+  const bool is_bag = sensors::is_bag(path);
+  if (!is_bag && !config.bag.topics.empty() && !config.is_given("bag", "topics")) {
+    throw std::runtime_error("--topic names topics of a recording of ROS, and '" + path.string() +
+                             "' is none");
+  }
+  if (is_bag) {
     contents = std::make_shared<const sensors::BagSummary>(sensors::summarize(path));
     there = fused_sensors_of_bag(path, *contents, config.bag);
   } else if (is_table_drive(path)) {

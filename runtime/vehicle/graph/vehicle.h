@@ -88,7 +88,7 @@ class Vehicle {
   // False once everything has ended by itself or after stop().
   bool running() const;
 
-  // Waits for the end; only then report() is complete.
+  // Waits for the end. Only then may report() be called.
   void wait();
   VehicleReport report() const;
 

@@ -62,6 +62,17 @@ TEST(StampGuard, AWrongStampOfRareDataIsRefusedAlone) {
             (std::vector<bool>{true, false, true, true, false, true, true}));
 }
 
+TEST(StampGuard, AClockThatIsSetByDecadesIsNoRhythm) {
+  StampGuard guard({});
+  const auto year = [](int y) { return Time(std::chrono::sys_days(std::chrono::year(y) / 1 / 1)); };
+  for (const int y : {2015, 2026, 2045, 2080}) {
+    guard.accept(year(1971));
+    EXPECT_EQ(guard.check(year(y)), Reason::time_jump) << y;
+    EXPECT_EQ(guard.check(year(y) + std::chrono::milliseconds(10)), Reason::time_jump) << y;
+    guard.reset();
+  }
+}
+
 TEST(StampGuard, NothingButRefusalsIsAJumpOfTheClock) {
   FusionParameters parameters;
   parameters.restart_after = 3;

@@ -93,6 +93,8 @@ TEST(Start, AnUncertainVelocityStartsTheAzimuthIfNoBetterOneComes) {
     return fix;
   };
   const double patience = parameters.late_course_after;
+  for (double t = -60.0; t < 0.0; t += 1.0)
+    EXPECT_EQ(filter.add(fix_of_speed(t, 0.5)).reason, Reason::no_course) << "it stands";
   for (double t = 0.0; t < patience; t += 1.0)
     EXPECT_EQ(filter.add(fix_of_speed(t, 8.0)).reason, Reason::no_course) << t;
   EXPECT_EQ(filter.add(fix_of_speed(patience, 4.0)).reason, Reason::no_course) << "17 degrees";

@@ -204,5 +204,23 @@ TEST(Extrinsics, AMountThatIsFoundIsWritten) {
               Contains(HasSubstr("roll is 1.5 and pitch 0.0 deg (sigma 0.2), 1.5 deg from")));
 }
 
+// There, roll and yaw are uncertain by nearly twice as much as the rotation.
+TEST(Extrinsics, AMountNearTheUprightIsWrittenWhole) {
+  Measurements m;
+  m.inertial.samples = MadeMotion().of_gyros(0.0);
+  sensors::Mount& mount = m.inertial.mount.emplace();
+  mount.status = sensors::MountStatus::found;
+  mount.R_body_unit = rotation_of({0.0, radians(60.0), radians(20.0)});
+  mount.level_sigma = mount.forward_sigma = radians(0.6);
+  const Extrinsics found = find_extrinsics(m, {});
+  EXPECT_GT(value(found, "imu", "roll").sigma, observed_angle);
+  for (const char* angle : {"roll", "pitch", "yaw"})
+    EXPECT_TRUE(value(found, "imu", angle).observed) << angle;
+  mount.level_sigma = radians(1.2);
+  const Extrinsics uncertain = find_extrinsics(m, {});
+  for (const char* angle : {"roll", "pitch", "yaw"})
+    EXPECT_FALSE(value(uncertain, "imu", angle).observed) << angle;
+}
+
 }  // namespace
 }  // namespace maploop::extrinsics

@@ -38,9 +38,9 @@ TEST_F(OutputCheck, NoOutputReplacesAFileOfAFolderThatIsRead) {
   std::filesystem::create_directory(file("drive"));
   const std::string fixes = write("drive/gnss.csv", "t,lat,lon\n1,49,8\n");
   refused({"replay", file("drive"), "--lockstep", "--no-lcm", "--csv", fixes},
-          "it is in the folder");
+          "it is there in the folder");
   refused({"doctor", file("drive"), "--json", file("drive/../drive/gnss.csv")},
-          "it is in the folder");
+          "it is there in the folder");
   EXPECT_EQ(read_file(fixes), "t,lat,lon\n1,49,8\n");
 }
 

@@ -49,6 +49,15 @@ TEST(DoctorOfARecording, SaysWhatCannotBeDoneWithoutGnss) {
   EXPECT_THAT(sentences(report), Contains(HasSubstr("maploop odometry")));
 }
 
+TEST(DoctorOfARecording, TablesHaveNoTopics) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const ProcessResult result =
+      run({maploop_command(), "doctor",
+           real_data() / "cars/oakville/parking-lot-figure8-nominal-001", "--topic", "imu=none"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.error, HasSubstr("--topic names topics of a recording of ROS"));
+}
+
 TEST(DoctorOfARecording, NamesPausesAndSamplesThatAreLeftOut) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const json report = report_of(real_data() / "cars/oakville/parking-lot-figure8-nominal-001");

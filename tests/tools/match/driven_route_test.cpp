@@ -108,11 +108,13 @@ TEST(DrivenRoute, HasNoLegThatNoVehicleCanDrive) {
   // The position hops to the other side of a road that only meets it a kilometre on.
   auto fixes = drive({{10, 0}, {400, 0}}, 10.0, 1.0);
   const auto other = drive({{390, 12}, {10, 12}}, 10.0, 1.0);
+  const Duration later = fixes.back().stamp - other.front().stamp + std::chrono::seconds(1);
   for (auto fix : other) {
-    fix.stamp += fixes.back().stamp - other.front().stamp + std::chrono::seconds(1);
+    fix.stamp += later;
     fixes.push_back(fix);
   }
   const DrivenRoute route = driven_route(matched(network, fixes), network);
+  EXPECT_THAT(route.pieces, SizeIs(2));
   for (const DrivenRoute::Piece& piece : route.pieces) EXPECT_LT(length(piece), 700.0);
 }
 

@@ -147,6 +147,12 @@ TEST(NmeaTrack, ZdaHasTheDateOfGga) {
       "a.nmea", {});
   ASSERT_EQ(track.size(), 1u);
   EXPECT_EQ(format_time(track[0].stamp).substr(0, 19), "2021-09-22 12:35:19");
+  const Track behind = parse_nmea_track(
+      "$GPGGA,123519.00,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,\r\n"
+      "$GPZDA,123519.00,22,09,2021,00,00\r\n",
+      "a.nmea", {});
+  ASSERT_EQ(behind.size(), 1u);
+  EXPECT_EQ(behind[0].stamp, track[0].stamp);
 }
 
 TEST(NmeaTrack, AfterMidnightItIsTheNextDayAlsoWithoutADate) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -85,12 +86,13 @@ void FoundValues::put_rotation(const std::string& sensor, SensorRotation& r,
                                bool is_camera) {
   const Vector3d angles = angles_of(R_body_sensor, is_camera);
   const Vector3d sigmas = angle_sigmas(R_body_sensor, is_camera, covariance);
-  // Near a pitch of 90 degrees, roll and yaw are uncertain although the rotation is not.
+  // A unit's mount is used as a whole. Near a pitch of 90 degrees, its roll and yaw are uncertain
+  // although the rotation is not.
   const bool all = covariance.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff() <=
                    std::pow(radians(observed_angle), 2);
   const auto put_angle = [&](const char* key, double& value, double& sigma, int i) {
     const bool observed = all || (sigmas[i] <= observed_angle && sensor != "imu");
-    put(sensor, "deg", observed, {key, value, sigma, angles[i], sigmas[i]});
+    put(sensor, "deg", observed, {key, value, sigma, angles[i], std::min(sigmas[i], 180.0)});
   };
   put_angle("roll", r.roll, r.roll_sigma, 0);
   put_angle("pitch", r.pitch, r.pitch_sigma, 1);
