@@ -37,7 +37,7 @@ Reason StampGuard::check(Time stamp) {
   unconfirmed_ = stamp;
   const Duration bridged = std::max(max_gap_, 4 * interval_);  // some of rare data may be missing
   const bool near = std::chrono::abs(step) <= usual_gap() && stamp - newest_ <= bridged;
-  const bool rare = step <= max_gap_ && first <= 2 * max_gap_ && alike(step, first);
+  const bool rare = step <= max_gap_ / 2 && first <= max_gap_ && alike(step, first);
   if (!near && !rare) return Reason::time_jump;
   interval_ = std::max(interval_, step);
   return Reason::none;

@@ -14,7 +14,8 @@ bool plausible_stamp(Time stamp);
 // A stamp older than the history is too old. A stamp ahead of all others by more than `confirm_gap`
 // may be a fault that would make all other data look late. It is refused, and the next stamp is
 // accepted if it is within `confirm_gap` of it and at most `max_gap` ahead, or if it is as far
-// after it as it was after the others. In the latter case the data is rare, as the fixes of a slow
+// after it as it was after the others, at most half of `max_gap`: with rarer data alone the filter
+// does not find its way through a bend. In the latter case the data is rare, as the fixes of a slow
 // receiver alone: from then on `confirm_gap` is half as long again as their interval, and `max_gap`
 // is at least four intervals. If only such refusals arrive, the clock of the data itself has
 // jumped.
