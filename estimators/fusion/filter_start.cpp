@@ -34,9 +34,9 @@ Outcome ReducedImuFilter::start(const GnssFix& fix) {
   return outcome;
 }
 
-// Counts from the first fix that moves, because a velocity becomes certain only then.
+// The time counts from the first fix that moves, because a velocity becomes certain only then.
 bool ReducedImuFilter::waited_for_course(const GnssFix& fix) {
-  if (fix.velocity_enu.head<2>().norm() < parameters_.min_course_speed) return false;
+  if (!moves(fix, parameters_)) return false;
   if (uncertain_since_ == Time{} || fix.stamp < uncertain_since_) uncertain_since_ = fix.stamp;
   return fix.stamp - uncertain_since_ >= from_seconds(parameters_.late_course_after);
 }

@@ -132,6 +132,10 @@ Time start_stamp(const GnssFix& fix) {
   return std::min(fix.stamp, fix.velocity_stamp);
 }
 
+bool moves(const GnssFix& fix, const FusionParameters& parameters) {
+  return fix.velocity_enu.head<2>().norm() >= parameters.min_course_speed;
+}
+
 Reason check_fix(const GnssFix& fix, const FusionParameters& parameters) {
   const Eigen::Vector3d position(fix.position.latitude, fix.position.longitude,
                                  fix.position.height);
@@ -161,17 +165,15 @@ Reason check_fix(const GnssFix& fix, const FusionParameters& parameters) {
     return Reason::stamps_apart;
   }
   if (stamped_after_delivery(fix, parameters)) return Reason::after_delivery;
-  if (fix.velocity_enu.head<2>().norm() < parameters.min_course_speed ||
-      velocity_sigma(fix) > parameters.max_course_velocity_sigma) {
+  if (!moves(fix, parameters) || velocity_sigma(fix) > parameters.max_course_velocity_sigma) {
     return Reason::no_course;
   }
   return Reason::none;
 }
 
 bool shows_late_course(const GnssFix& fix, const FusionParameters& parameters) {
-  const double speed = fix.velocity_enu.head<2>().norm();
-  return speed >= parameters.min_course_speed &&
-         velocity_sigma(fix) <= parameters.late_course_sigma * speed;
+  return moves(fix, parameters) &&
+         velocity_sigma(fix) <= parameters.late_course_sigma * fix.velocity_enu.head<2>().norm();
 }
 
 FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const FusionParameters& p,

@@ -36,6 +36,9 @@ FilterState initial_state(const KnownStart& known, const LocalFrame& frame,
 // Returns the earlier of the fix's two stamps, which is where the filter starts.
 Time start_stamp(const GnssFix& fix);
 
+// Returns whether the fix is fast enough to show a course.
+bool moves(const GnssFix& fix, const FusionParameters& parameters);
+
 // Returns Reason::none, or the reason why the fix cannot start a filter.
 Reason check_fix(const GnssFix& fix, const FusionParameters& parameters);
 

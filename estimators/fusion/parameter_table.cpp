@@ -83,8 +83,8 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        course_velocity_choice},
       {"late_course_after", &P::late_course_after, 0.0, large, "s", expert,
        "Time since the first fix that moves, without such a velocity, after which a less certain "
-       "one "
-       "starts the azimuth, too: a receiver that measures no Doppler shifts has no better one."},
+       "one starts the azimuth, too: a receiver that measures no Doppler shifts has no better "
+       "one."},
       {"late_course_sigma", &P::late_course_sigma, 0.01, 0.5, "rad", expert,
        "Standard deviation of the course of such a velocity, up to which it does. The filter is "
        "linear up to 0.35."},

@@ -4,11 +4,6 @@
 #include <chrono>
 
 namespace maploop::fusion {
-
-bool plausible_stamp(Time stamp) {
-  return stamp > Time{} && stamp < Time(std::chrono::sys_days(std::chrono::year(2100) / 1 / 1));
-}
-
 namespace {
 
 // Whether two steps are those of one rhythm, which jitters.
@@ -17,6 +12,10 @@ bool alike(Duration a, Duration b) {
 }
 
 }  // namespace
+
+bool plausible_stamp(Time stamp) {
+  return stamp > Time{} && stamp < Time(std::chrono::sys_days(std::chrono::year(2100) / 1 / 1));
+}
 
 StampGuard::StampGuard(const FusionParameters& parameters)
     : history_length_(from_seconds(parameters.history_length)),

@@ -8,8 +8,8 @@
 
 namespace maploop::runtime {
 
-// What the kernel knows of the program that disciplines its clock (by NTP, PTP or a receiver's
-// pulse); adjtimex(2).
+// A program may discipline the kernel's clock by NTP, PTP or a receiver's pulse. This is what the
+// kernel knows of it (adjtimex(2)).
 struct UtcDiscipline {
   bool synchronized = false;  // a program disciplines the clock, and has said so lately
   bool pulse = false;         // a receiver's pulse (PPS) reaches the kernel

@@ -52,6 +52,10 @@ std::filesystem::path kind_of_table(const std::filesystem::path& file) {
 
 }  // namespace
 
+bool is_pos_file(const std::filesystem::path& file) {
+  return kind_of_table(file) == ".pos";
+}
+
 NumberTable::NumberTable(const std::filesystem::path& file, const NumberTableOptions& options)
     : file_(file) {
   std::string text = read_text(file);

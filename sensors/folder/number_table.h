@@ -25,6 +25,9 @@ struct NumberTableOptions {
   bool missing = false;                   // empty cells and `nan` are allowed, and are NaN
 };
 
+// Returns whether the name is that of RTKLIB's solutions, plain or .gz.
+bool is_pos_file(const std::filesystem::path& file);
+
 class NumberTable {
  public:
   static constexpr std::int64_t none = std::numeric_limits<std::int64_t>::min();

@@ -33,7 +33,7 @@ void leave_out_of_order(const std::vector<Time>& stamps, const std::filesystem::
   }
 }
 
-// Frames without a gap longer than any recording has.
+// A part is a run of frames without a gap longer than any recording has.
 struct Part {
   std::size_t begin = 0, end = 0, frames = 0;
   Time first{}, last{};

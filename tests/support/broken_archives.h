@@ -12,9 +12,7 @@ namespace maploop::testing {
 
 template <class T>
 Bytes saved(const T& value) {
-  ArchiveWriter writer;
-  writer(value);
-  return seal(writer.content());
+  return sealed_archive([&](ArchiveWriter& ar) { ar(value); });
 }
 
 template <class T>

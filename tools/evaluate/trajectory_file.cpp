@@ -11,6 +11,7 @@
 
 #include "ppp/models/geodesy.h"
 #include "runtime/core/number_text.h"
+#include "sensors/folder/number_table.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/pose_odometry.h"
 #include "tools/evaluate/log_messages.h"
@@ -90,9 +91,7 @@ TumPose tum_pose(const TextLines& lines, const Cells& words) {
 
 StampedTrajectory read_trajectory(const std::filesystem::path& file, Role role) {
   if (is_lcm_log(file)) return read_log_trajectory(file, role);
-  const std::string name = file.string();
-  if (name.ends_with(".pos") || name.ends_with(".pos.gz"))
-    return positions_of(read_rtklib_positions(file));
+  if (sensors::is_pos_file(file)) return positions_of(read_rtklib_positions(file));
   const std::string text = read_text(file);
   TextLines lines(text, file.string());
   StampedTrajectory trajectory;

@@ -10,6 +10,7 @@
 #include "msgs/frames.h"
 #include "ppp/models/geodesy.h"
 #include "ppp/readers/files/lines.h"
+#include "sensors/folder/number_table.h"
 #include "tools/evaluate/rtklib_positions.h"
 
 namespace maploop::gnss {
@@ -44,10 +45,6 @@ Eigen::Vector3d place_of(const Eigen::Vector3d& p, const std::string& text) {
                   "centre, or latitude,longitude,height in degrees and metres");
 }
 
-bool is_rtklib(const std::string& file) {
-  return file.ends_with(".pos") || file.ends_with(".pos.gz");
-}
-
 }  // namespace
 
 Truth::Truth(const std::string& text, GpsTime near) {
@@ -62,7 +59,7 @@ Truth::Truth(const std::string& text, GpsTime near) {
     throw ReadError("--truth: '" + text +
                     "' is neither X,Y,Z in metres, nor latitude,longitude,height, nor a file");
   }
-  if (is_rtklib(text)) {
+  if (sensors::is_pos_file(text)) {
     read_positions(text);
   } else {
     read_rows(text, near);

@@ -127,8 +127,7 @@ class CompactReader {
       if (!lines_.next() || !lines_.whole()) return false;
       apply_header_record(lines_, in_force_);
     }
-    result_.header.types = in_force_.header.types;
-    result_.header.signals_of = in_force_.header.signals_of;
+    take_event(in_force_, lines_, result_);
     epoch_line_.clear();  // the next epoch line is complete again
     return true;
   }

@@ -95,16 +95,7 @@ class PlainReader {
       if (!lines_.next()) return false;
       apply_header_record(lines_, in_force_);
     }
-    for (std::size_t s = 0; s < in_force_.header.types.size(); ++s) {
-      result_.header.types[s] = in_force_.header.types[s];
-    }
-    result_.header.signals_of = in_force_.header.signals_of;
-    if (in_force_.header.antenna_delta_enu != result_.header.antenna_delta_enu) {
-      refuse(result_, lines_,
-             "the antenna is moved on its marker (ANTENNA: DELTA H/E/N), which is not followed: "
-             "positions are those of the marker only until here; split the file");
-      in_force_.header.antenna_delta_enu = result_.header.antenna_delta_enu;
-    }
+    take_event(in_force_, lines_, result_);
     return true;
   }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ppp/readers/streams/epoch_builder.h"
+
 namespace maploop::ppp {
 namespace {
 
@@ -196,6 +198,16 @@ void apply_header_record(Lines& lines, HeaderInForce& in_force) {
   } else if (name == "GLONASS SLOT / FRQ #") {
     read_glonass_channels(lines, header);
   }
+}
+
+void take_event(HeaderInForce& in_force, const Lines& lines, Observations& result) {
+  result.header.types = in_force.header.types;
+  result.header.signals_of = in_force.header.signals_of;
+  if (in_force.header.antenna_delta_enu == result.header.antenna_delta_enu) return;
+  refuse(result, lines,
+         "the antenna is moved on its marker (ANTENNA: DELTA H/E/N), which is not followed: "
+         "positions are those of the marker only until here; split the file");
+  in_force.header.antenna_delta_enu = result.header.antenna_delta_enu;
 }
 
 HeaderInForce read_observation_header(Lines& lines) {

@@ -21,4 +21,8 @@ HeaderInForce read_observation_header(Lines& lines);
 // channels. Other records are skipped.
 void apply_header_record(Lines& lines, HeaderInForce& in_force);
 
+// Takes over what the records of an event inside the file have changed. An antenna that is moved on
+// its marker is not followed, which is counted as a refusal.
+void take_event(HeaderInForce& in_force, const Lines& lines, Observations& result);
+
 }  // namespace maploop::ppp

@@ -80,8 +80,8 @@ void append_satellite(Observations& observations, const Lines& lines, Satellite 
 namespace {
 
 // Whether the last epoch has a wrong date: it is far ahead of its neighbours, which are in order.
-// Of the first two of a file, nothing tells which one is wrong: the second is believed, because
-// otherwise a wrong first date would cost the whole file.
+// If these are the first two epochs of a file, either date may be wrong. The second one is believed
+// then, because otherwise a wrong first date would cost the whole file.
 bool last_was_ahead(const std::vector<Epoch>& epochs, GpsTime next) {
   constexpr Duration far = std::chrono::minutes(10);
   const GpsTime last = epochs.back().time;

@@ -7,6 +7,7 @@
 
 #include "estimators/fusion/configuration.h"
 #include "sensors/folder/image_lists.h"
+#include "sensors/folder/number_table.h"
 #include "sensors/folder/table_recording.h"
 
 namespace maploop::vehicle {
@@ -55,7 +56,7 @@ bool is_table_drive(const std::filesystem::path& path) {
   const bool tables = sensors::TableRecording::is_named(path) ||
                       std::filesystem::exists(path / "maploop.tables.toml", ignored);
   if (tables) return !sensors::has_images(path) && !sensors::find_scans(path);
-  return std::filesystem::is_regular_file(path, ignored) && is_pos_file(path);
+  return std::filesystem::is_regular_file(path, ignored) && sensors::is_pos_file(path);
 }
 
 }  // namespace maploop::vehicle

@@ -15,9 +15,6 @@ namespace maploop::vehicle {
 // nothing if the path is none of these. Throws std::runtime_error naming file, line and key.
 std::optional<sensors::TableMapping> find_table_mapping(const std::filesystem::path& path);
 
-// Returns whether the name is one of RTKLIB's solutions.
-bool is_pos_file(const std::filesystem::path& file);
-
 // Returns whether the path has such tables, and neither images nor clouds.
 bool is_table_drive(const std::filesystem::path& path);
 

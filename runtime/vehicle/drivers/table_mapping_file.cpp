@@ -114,7 +114,7 @@ void read_position(const ConfigTable& table, auto& to) {
 
 void read_gnss(const ConfigTable& table, const fs::path& folder, sensors::GnssTable& gnss) {
   if (!read_file(table, folder, gnss)) return;
-  if (is_pos_file(gnss.file)) return describe_pos(gnss.file, gnss);
+  if (sensors::is_pos_file(gnss.file)) return describe_pos(gnss.file, gnss);
   read_position(table, gnss);
   read_columns(table, "position_sigma", 3, gnss.position_sigma);
   read_columns(table, "velocity_sigma", 3, gnss.velocity_sigma);
@@ -162,10 +162,6 @@ void read_reference(const ConfigTable& table, const fs::path& folder,
 
 }  // namespace
 
-bool is_pos_file(const fs::path& file) {
-  return (file.extension() == ".gz" ? file.stem() : file).extension() == ".pos";
-}
-
 sensors::TableMapping read_table_mapping(const fs::path& file) {
   const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
   const ConfigTable root = document.root();
@@ -184,7 +180,7 @@ std::optional<sensors::TableMapping> find_table_mapping(const fs::path& path) {
   std::error_code ignored;
   if (const fs::path file = path / "maploop.tables.toml"; fs::is_regular_file(file, ignored))
     return read_table_mapping(file);
-  if (is_pos_file(path) && fs::is_regular_file(path, ignored)) {
+  if (sensors::is_pos_file(path) && fs::is_regular_file(path, ignored)) {
     sensors::TableMapping mapping;
     mapping.utc_of_gps = utc_of_gps;
     describe_pos(path, mapping.gnss);

@@ -172,7 +172,7 @@ void Vehicle::Graph::start() {
 
 void Vehicle::Graph::wait() {
   for (runtime::Thread& thread : producers) thread.join();
-  stop.request_stop();  // also the loaders whose driver has failed end
+  stop.request_stop();  // this ends the loaders whose driver has failed
   end_preview.request_stop();
   end_health.request_stop();
   health_bell.ring();

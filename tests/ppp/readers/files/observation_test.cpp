@@ -127,6 +127,20 @@ TEST_F(ChangedCar, AnAntennaThatIsMovedIsSaid) {
   EXPECT_NE(o.refusals[0].find("split the file"), std::string::npos);
 }
 
+TEST(ObservationFile, AnAntennaThatIsMovedIsSaidInTheCompactForm) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  std::string text = read_file(gnss("parser_samples/KUNZ00CZE.crx"));
+  const Observations as_it_is = parse_observations(text, "KUNZ00CZE.crx");
+  text.insert(text.find('\n', text.find("END OF HEADER")) + 1,
+              ">                              4  1\n"
+              "        5.0000        0.0000        0.0000                  ANTENNA: DELTA H/E/N\n");
+  const Observations o = parse_observations(text, "KUNZ00CZE.crx");
+  EXPECT_EQ(o.epochs.size(), as_it_is.epochs.size());
+  EXPECT_EQ(o.header.antenna_delta_enu, as_it_is.header.antenna_delta_enu);
+  ASSERT_EQ(o.refused, as_it_is.refused + 1);
+  EXPECT_NE(o.refusals[0].find("split the file"), std::string::npos);
+}
+
 TEST(ObservationFile, EveryRealSampleIsRead) {
   MAPLOOP_REQUIRE_REAL_DATA();
   EXPECT_GT(read("parser_samples/KUNZ00CZE.crx").epochs.size(), 1U);
