@@ -72,9 +72,10 @@ void leave_out_of_reach(const std::vector<Time>& stamps, const std::filesystem::
   while (first != parts.begin() && pause(*std::prev(first), *first)) --first;
   while (std::next(last) != parts.end() && pause(*last, *std::next(last))) ++last;
   std::vector<bool> kept(stamps.size(), false);
-  for (auto part = first; part != std::next(last); ++part)
+  for (auto part = first; part != std::next(last); ++part) {
     std::fill(kept.begin() + static_cast<std::ptrdiff_t>(part->begin),
               kept.begin() + static_cast<std::ptrdiff_t>(part->end), true);
+  }
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     if (verdicts[i] || kept[i]) continue;
     verdicts[i] = Finding{file.string(), i + 1,
