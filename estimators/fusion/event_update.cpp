@@ -7,6 +7,7 @@
 #include "estimators/fusion/map_update.h"
 #include "estimators/fusion/mechanization.h"
 #include "estimators/fusion/odometry_update.h"
+#include "estimators/fusion/velocity_witness.h"
 #include "estimators/fusion/wheel_update.h"
 
 namespace maploop::fusion {
@@ -69,8 +70,9 @@ void advance(FilterState& state, const InertialSamples& samples, Time to, const 
 Outcome apply_event(FilterState& state, const Event& event, const InertialSamples& samples,
                     const LocalFrame& frame, const LocalEarth& earth, const FusionParameters& p) {
   if (const auto* motion = std::get_if<RelativeMotion>(&event.measurement)) {
-    note_motion(state.stillness, *motion, p);
-    return apply_odometry(state, *motion, p);
+    const Outcome outcome = apply_odometry(state, *motion, p);
+    if (!outcome.refused()) note_motion(state.stillness, *motion, p);
+    return outcome;
   }
   if (const auto* sample = std::get_if<ImuSample>(&event.measurement)) {
     state.imu_repeated = repetition(samples, *sample, state.x[index::speed], p);
@@ -80,13 +82,15 @@ Outcome apply_event(FilterState& state, const Event& event, const InertialSample
     return {};
   }
   if (const auto* sample = std::get_if<WheelSpeed>(&event.measurement)) {
-    note_motion(state.stillness, *sample, p);
-    return apply_wheel(state, *sample, p);
+    const Outcome outcome = apply_wheel(state, *sample, p);
+    if (!outcome.refused()) note_motion(state.stillness, *sample, p);
+    return outcome;
   }
   if (const auto* fix = std::get_if<GnssFix>(&event.measurement)) {
     // Without odometry, the fix must not move the frame of odometry.
     if (state.stamp - state.clone_stamp > from_seconds(p.max_interval)) take_clone(state);
     if (event.key.kind == EventKind::gnss_position) {
+      judge_by_velocity(state, *fix, p);
       return apply_gnss_position(state, *fix, frame, p);
     }
     const bool known = samples.before != nullptr && !frozen(samples.repeated, p);

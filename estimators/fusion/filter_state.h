@@ -8,6 +8,7 @@
 
 #include "estimators/fusion/contradiction.h"
 #include "estimators/fusion/refused_fixes.h"
+#include "estimators/fusion/wheel_check.h"
 #include "msgs/frames.h"
 #include "msgs/odom_state.h"
 #include "msgs/time.h"
@@ -79,13 +80,16 @@ struct Stillness {
   // vehicle.
   Time seen_standing{};
   Time seen_moving{};
+  // Fixes have said since then that a vehicle that seems to stand moves, and are believed until.
+  Time carried_since{};
+  Time denied_until{};
 };
 
 template <class Archive>
 void archive(Archive& ar, Stillness& s) {
   ar(s.mean_force, s.force_variance, s.mean_left, s.left_variance, s.mean_rate, s.rate_variance,
      s.mean_roll_rate, s.roll_rate_variance, s.mean_pitch_rate, s.pitch_rate_variance,
-     s.seen_standing, s.seen_moving);
+     s.seen_standing, s.seen_moving, s.carried_since, s.denied_until);
 }
 
 // This is a pose in the frame of odometry, which agrees with enu at the filter's start and then
@@ -134,6 +138,8 @@ struct FilterState {
   Duration imu_repeated{};  // how long inertial samples have only repeated one value
   double yaw_rate = 0.0;    // rad/s, measured by the gyro, of this time by its delay
   Contradictions contradictions;
+  WheelCheck wheel_check;
+  Time forward_stamp{};  // newest velocity of a fix after which the vehicle did not race in reverse
 
   double ground_speed() const { return x[index::speed] / (1.0 + x[index::speed_scale]); }
   Attitude attitude() const { return {x[index::azimuth], x[index::pitch], x[index::roll]}; }
@@ -162,7 +168,7 @@ void archive(Archive& ar, FilterState& s) {
      s.odometry_applied, s.odometry_refused, s.gated_in_a_row, s.refused_fixes,
      s.velocity_gated_in_a_row, s.wheel_gated_in_a_row, s.map_gated_in_a_row, s.recoveries,
      s.reinitializations, s.chained_azimuth, s.stillness, s.imu_repeated, s.yaw_rate,
-     s.contradictions);
+     s.contradictions, s.wheel_check, s.forward_stamp);
 }
 
 // Returns the unit vector in enu at an azimuth and an elevation (rad).

@@ -125,6 +125,7 @@ bool stands(FilterState& state, const ImuSample& sample, double interval,
     follow(s.mean_pitch_rate, s.pitch_rate_variance, sample.pitch_rate, share);
   }
 
+  if (s.denied_until > sample.stamp) return false;
   const double rate_margin = p.still_rate + 3.0 * std::sqrt(state.P(gyro_bias, gyro_bias));
   if (std::abs(sample.yaw_rate - state.x[gyro_bias]) > rate_margin) return false;
   if (p.still_by_inertia && is_quiet(s, six, p)) return near_zero(state);

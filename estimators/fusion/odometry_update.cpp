@@ -7,6 +7,7 @@
 #include "estimators/fusion/follow_innovation.h"
 #include "estimators/fusion/gnss_update.h"
 #include "estimators/fusion/odometry_innovation.h"
+#include "estimators/fusion/turn_round.h"
 
 namespace maploop::fusion {
 namespace {
@@ -126,23 +127,6 @@ bool drives_backward(const FilterState& state, const RelativeMotion& motion,
   constexpr double alike = 0.3;
   return expected * seen < 0.0 && std::abs(seen + expected) < alike * std::abs(seen - expected) &&
          std::abs(seen) > p.min_course_speed * to_seconds(motion.stamp - motion.from);
-}
-
-void turn_round(FilterState& state) {
-  using namespace index;
-  StateVector& x = state.x;
-  state.odom_at_clone.rotation *=
-      Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ()) * Eigen::Quaterniond::Identity();
-  x[azimuth] = wrap_angle(x[azimuth] + std::numbers::pi);
-  x[clone_azimuth] = wrap_angle(x[clone_azimuth] + std::numbers::pi);
-  x[pitch] = -x[pitch] - 2.0 * x[climb_offset];
-  x[clone_pitch] = -x[clone_pitch] - 2.0 * x[climb_offset];
-  state.chained_azimuth = wrap_angle(state.chained_azimuth + std::numbers::pi);
-  for (const int i : {speed, distance, roll, clone_roll}) x[i] = -x[i];
-  for (const int i : {speed, distance, pitch, clone_pitch, roll, clone_roll}) {
-    state.P.row(i) *= -1.0;
-    state.P.col(i) *= -1.0;
-  }
 }
 
 // Corrects with an inflated covariance. If even this is refused, the state stays as it was.

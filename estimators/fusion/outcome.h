@@ -36,6 +36,7 @@ enum class Reason : std::uint8_t {
   rotation_gate,     // rotation contradicts the prediction
   implausible_tilt,  // the correction would tilt the vehicle too far
   wheel_gate,        // the wheels' speed contradicts the prediction
+  wheels_wrong,      // fixes have shown for seconds that it is not the vehicle's speed
   not_configured,    // the configuration does not use this sensor (refused on arrival)
   // These refuse GNSS fixes.
   position_gate,        // position contradicts the prediction
@@ -125,6 +126,8 @@ constexpr std::string_view to_string(Reason reason) {
       return "implausible tilt";
     case Reason::wheel_gate:
       return "wheel speed contradicts the prediction";
+    case Reason::wheels_wrong:
+      return "fixes contradict the wheel speed (unit, sign or scale?)";
     case Reason::not_configured:
       return "not used by the configuration";
     case Reason::position_gate:

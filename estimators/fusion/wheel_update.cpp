@@ -21,6 +21,8 @@ Outcome apply_wheel(FilterState& state, const WheelSpeed& sample, const FusionPa
     return apply_gated(state, innovation, p.speed_gate, Reason::wheel_gate, p.max_tilt);
   };
   follow(state, Witness::wheel_speed, innovation, p);
+  state.wheel_check.add(sample);
+  if (state.wheel_check.wrong) return refused(Reason::wheels_wrong);
   Outcome outcome = correct();
   if (outcome.refused() && ++state.wheel_gated_in_a_row % p.recover_after == 0 &&
       !held_by_fix(state, p)) {

@@ -13,7 +13,8 @@ Innovation<1> wheel_innovation(const FilterState& state, const WheelSpeed& sampl
                                const FusionParameters& parameters);
 
 // After each `recover_after` consecutive gated samples the speed's covariance is inflated
-// (`recoveries`), unless a fix has just confirmed the speed (held_by_fix).
+// (`recoveries`), unless a fix has just confirmed the speed (held_by_fix). Wheels that fixes have
+// shown to be wrong (WheelCheck) are refused.
 Outcome apply_wheel(FilterState& state, const WheelSpeed& sample,
                     const FusionParameters& parameters);
 

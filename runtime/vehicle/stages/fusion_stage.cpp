@@ -196,7 +196,7 @@ void FusionStage::save_until(Time t, const std::stop_token& stop) {
 // resumes sends it.
 template <class Archive>
 void FusionStage::archive(Archive& ar) {
-  ar.section(spec().name, 4);
+  ar.section(spec().name, 5);
   ar(filter_, protection_, doubts_, ticks_, images_, sent_states_, sent_image_states_);
 }
 
