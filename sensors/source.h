@@ -1,10 +1,13 @@
 // This file defines the interface of all drivers that replay recorded samples.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -35,6 +38,17 @@ struct SourceReport {
   void flaw(Finding finding) {
     ++flawed;
     if (flaws.size() < max_findings) flaws.push_back(std::move(finding));
+  }
+  // Returns the reason that most of the kept refusals state, the earlier one of two as frequent
+  // ones; nothing where none is refused.
+  std::string_view main_reason() const {
+    std::string_view most;
+    std::ptrdiff_t times = 0;
+    for (const Finding& f : refusals) {
+      const auto of_this = std::ranges::count(refusals, f.reason, &Finding::reason);
+      if (of_this > times) std::tie(most, times) = std::tie(f.reason, of_this);
+    }
+    return most;
   }
 };
 

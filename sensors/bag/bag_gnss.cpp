@@ -9,6 +9,8 @@
 namespace maploop::sensors {
 namespace {
 
+// A velocity belongs to the fix whose stamp is nearest, and its message may come before or after
+// that of the fix. So a fix is held until the next message shows which velocity is nearer.
 class FixMaker {
  public:
   FixMaker(SharedBagSettings settings, const Topic& gnss, const Topic* velocity)
@@ -21,36 +23,77 @@ class FixMaker {
       if (message->topic->name != gnss_.name) {
         RosTwist twist;
         if (!stream_.decoded(*message, twist, report)) continue;
-        velocity_ = twist.linear;
-        velocity_stamp_ = stream_.stamp(twist.header, *message);
+        const Velocity velocity{stream_.stamp(twist.header, *message), twist.linear};
+        const bool settles = held_ && velocity.stamp >= held_->stamp;
+        if (settles) give(fix, &velocity);
+        last_velocity_ = velocity;
+        if (settles) return true;
         continue;
       }
-      RosFix from;
-      if (!stream_.decoded(*message, from, report)) continue;
-      if (from.status < 0) {
-        stream_.refuse(gnss_, "the receiver had no fix", report);
-        continue;
+      std::optional<GnssFix> taken = take(*message, report);
+      if (!taken) continue;
+      const bool given = held_.has_value();
+      if (given) give(fix, nullptr);
+      held_ = taken;
+      if (given) return true;
+      if (!has_velocity_ || (last_velocity_ && last_velocity_->stamp == held_->stamp)) {
+        give(fix, nullptr);
+        return true;
       }
-      if (!(std::abs(from.latitude) <= 90.0 && std::abs(from.longitude) <= 360.0 &&
-            std::isfinite(from.altitude))) {
-        stream_.refuse(gnss_, "its position is not one on Earth", report);
-        continue;
-      }
-      fix.stamp = fix.available = stream_.stamp(from.header, *message);
-      fix.sequence = fixes_++;
-      if (!stream_.follows(gnss_, fix, report)) continue;
-      set_position(from, fix);
-      set_velocity(fix);
-      return true;
     }
-    return false;
+    if (!held_) return false;
+    give(fix, nullptr);
+    return true;
   }
 
  private:
+  struct Velocity {
+    Time stamp{};
+    Eigen::Vector3d enu;
+  };
+
   static std::set<std::string> topics(const Topic& gnss, const Topic* velocity) {
     std::set<std::string> names{gnss.name};
     if (velocity != nullptr) names.insert(velocity->name);
     return names;
+  }
+
+  std::optional<GnssFix> take(const RecordedMessage& message, SourceReport& report) {
+    RosFix from;
+    if (!stream_.decoded(message, from, report)) return std::nullopt;
+    if (from.status < 0) {
+      stream_.refuse(gnss_, "the receiver had no fix", report);
+      return std::nullopt;
+    }
+    if (!(std::abs(from.latitude) <= 90.0 && std::abs(from.longitude) <= 360.0 &&
+          std::isfinite(from.altitude))) {
+      stream_.refuse(gnss_, "its position is not one on Earth", report);
+      return std::nullopt;
+    }
+    GnssFix fix;
+    fix.stamp = fix.available = stream_.stamp(from.header, message);
+    fix.sequence = fixes_++;
+    if (!stream_.follows(gnss_, fix, report)) return std::nullopt;
+    set_position(from, fix);
+    return fix;
+  }
+
+  // Gives the held fix the nearer of the last velocity and of the one that follows.
+  void give(GnssFix& fix, const Velocity* following) {
+    fix = *held_;
+    held_.reset();
+    derivative_.set_velocity(fix);
+    const Velocity* nearest = last_velocity_ ? &*last_velocity_ : following;
+    if (following != nullptr && last_velocity_ &&
+        following->stamp - fix.stamp < fix.stamp - last_velocity_->stamp) {
+      nearest = following;
+    }
+    constexpr Duration farthest = std::chrono::milliseconds(200);
+    if (nearest == nullptr || !input_limits::within(farthest, nearest->stamp, fix.stamp)) return;
+    const double sigma = stream_.settings().parameters.gnss_velocity_sigma;
+    fix.velocity_enu = nearest->enu;
+    fix.velocity_stamp = nearest->stamp;
+    fix.velocity_covariance = sigma * sigma * Eigen::Matrix3d::Identity();
   }
 
   void set_position(const RosFix& from, GnssFix& fix) const {
@@ -64,25 +107,11 @@ class FixMaker {
         Eigen::Vector3d(sigma, sigma, height_share * sigma).cwiseAbs2().asDiagonal();
   }
 
-  void set_velocity(GnssFix& fix) {
-    const double sigma = stream_.settings().parameters.gnss_velocity_sigma;
-    constexpr Duration oldest = std::chrono::milliseconds(500);
-    VelocityFromPositions::set_unknown(fix);
-    if (has_velocity_) {
-      if (!velocity_ || !input_limits::within(oldest, velocity_stamp_, fix.stamp)) return;
-      fix.velocity_enu = *velocity_;
-      fix.velocity_stamp = velocity_stamp_;
-      fix.velocity_covariance = sigma * sigma * Eigen::Matrix3d::Identity();
-      return;
-    }
-    derivative_.set_velocity(fix);
-  }
-
   TopicStream stream_;
   Topic gnss_;
   bool has_velocity_;
-  std::optional<Eigen::Vector3d> velocity_;
-  Time velocity_stamp_{};
+  std::optional<GnssFix> held_;
+  std::optional<Velocity> last_velocity_;
   VelocityFromPositions derivative_;
   std::uint64_t fixes_ = 0;
 };

@@ -1,7 +1,10 @@
 #include "sensors/folder/table_recording.h"
 
+#include <algorithm>
 #include <array>
+#include <iomanip>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -26,6 +29,11 @@ Eigen::Matrix3d covariance(TableValues north_east_down) {
       .asDiagonal();
 }
 
+// A receiver that does not know how good it is says 0.
+bool stated(TableValues sigmas) {
+  return std::ranges::any_of(sigmas, [](double sigma) { return sigma > 0.0; });
+}
+
 std::shared_ptr<TableRows<GnssFix>> read_fixes(const OpenedTable& opened, const GnssTable& t,
                                                Time start) {
   std::vector<WantedColumn> wanted;
@@ -46,14 +54,14 @@ std::shared_ptr<TableRows<GnssFix>> read_fixes(const OpenedTable& opened, const 
                       velocity_sigma = take(t.velocity_sigma);
     if (t.quality.given() && v[0] == 0.0) throw std::invalid_argument("the receiver had no fix");
     const double p = t.default_position_sigma, s = t.default_velocity_sigma;
-    fix.position_covariance = t.position_sigma.given()
+    fix.position_covariance = stated(position_sigma)
                                   ? covariance(position_sigma)
                                   : covariance(std::array{p, p, height_share * p});
     fix.velocity_stamp = fix.stamp;
     if (!t.velocity.given()) return;
     fix.velocity_enu = velocity_enu(t.velocity_axes, velocity, fix.position);
     fix.velocity_covariance =
-        t.velocity_sigma.given() ? covariance(velocity_sigma) : covariance(std::array{s, s, s});
+        stated(velocity_sigma) ? covariance(velocity_sigma) : covariance(std::array{s, s, s});
   };
   auto rows = read_rows<GnssFix>(opened.table, opened.clock, start, wanted, fill);
   VelocityFromPositions derivative;
@@ -62,16 +70,57 @@ std::shared_ptr<TableRows<GnssFix>> read_fixes(const OpenedTable& opened, const 
   return rows;
 }
 
+// Gravity is in every specific force of a vehicle, and no vehicle turns for long as fast as numbers
+// in degrees say.
+void require_units(const TableRows<SixAxisSample>& rows) {
+  constexpr std::size_t enough = 200;
+  constexpr double least_gravity = 7.0, most_gravity = 13.0;  // m/s^2, in the median
+  constexpr double fast_turning = 4.0;                        // rad/s, in the 99th percentile
+  std::vector<double> forces, rates;
+  for (std::size_t i = 0; i < rows.samples.size(); ++i) {
+    if (rows.verdicts[i]) continue;
+    forces.push_back(rows.samples[i].force.norm());
+    rates.push_back(rows.samples[i].rate.norm());
+  }
+  if (forces.size() < enough) return;
+  const auto share = [](std::vector<double>& values, double part) {
+    const auto place =
+        values.begin() + static_cast<long>(part * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+  };
+  const auto refuse = [&](double value, const char* what, const char* unit) {
+    std::ostringstream text;
+    text << rows.file.string() << ": " << std::setprecision(3) << value << what << unit
+         << ", sensors/FORMATS.md)";
+    throw std::runtime_error(text.str());
+  };
+  const double force = share(forces, 0.5), rate = share(rates, 0.99);
+  if (force < least_gravity || force > most_gravity) {
+    refuse(force,
+           " m/s^2 is the specific force in the median, where gravity alone is 9.8; give forces "
+           "with gravity, and state their unit (",
+           "accelerometer_unit");
+  }
+  if (rate > fast_turning) {
+    refuse(rate,
+           " rad/s or more in 1 % of the rows is faster than a vehicle turns; state the unit (",
+           "gyro_unit");
+  }
+}
+
 std::shared_ptr<TableRows<SixAxisSample>> read_imu(const OpenedTable& opened, const ImuTable& t,
                                                    Time start) {
   std::vector<WantedColumn> wanted;
   want(wanted, t.gyro, -most_rate, most_rate);
   want(wanted, t.accelerometer, -most_force, most_force);
-  return read_rows<SixAxisSample>(opened.table, opened.clock, start, wanted,
-                                  [](TableValues v, SixAxisSample& sample) {
-                                    sample.rate = {v[0], v[1], v[2]};
-                                    sample.force = {v[3], v[4], v[5]};
-                                  });
+  auto rows = read_rows<SixAxisSample>(opened.table, opened.clock, start, wanted,
+                                       [](TableValues v, SixAxisSample& sample) {
+                                         sample.rate = {v[0], v[1], v[2]};
+                                         sample.force = {v[3], v[4], v[5]};
+                                       });
+  require_units(*rows);
+  return rows;
 }
 
 std::shared_ptr<TableRows<WheelSpeed>> read_wheel(const OpenedTable& opened, const WheelTable& t,

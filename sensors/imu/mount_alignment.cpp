@@ -133,6 +133,7 @@ void MountAlignment::take_pending() {
   const GnssFix fix = *pending_;
   pending_.reset();
   if (!fix.velocity_enu.allFinite() || !fix.velocity_covariance.allFinite()) return;
+  if (!(velocity_sigma(fix) < worst_velocity)) return;
   if (previous_) {
     const double interval = to_seconds(fix.velocity_stamp - previous_->velocity_stamp);
     if (interval < shortest_interval) return;
@@ -162,8 +163,7 @@ void MountAlignment::learn(const GnssFix& a, const GnssFix& b) {
   const auto [slow, fast] = std::minmax({horizontal_speed(a), horizontal_speed(b)});
   if (fast < rest_speed) {
     learn_rest(mean, duration);
-  } else if (slow > course_speed &&
-             std::max(velocity_sigma(a), velocity_sigma(b)) < worst_velocity) {
+  } else if (slow > course_speed) {
     const Motion motion(mean, a, b, duration, rear_axle_distance_);
     if (motion.plausible(mount_.gyro_bias)) learn_motion(motion);
   }

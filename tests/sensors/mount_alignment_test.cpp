@@ -43,6 +43,7 @@ struct MadeDrive {
   double turning = 1.0;      // times the turns of a town
   double changes = 1.0;      // times its changes of speed
   double wrong_share = 0.0;  // of the fixes, with a velocity that is off by 20 m/s
+  bool every_other = false;  // fix has no velocity, as where it comes from positions of the second
 
   double speed(double t) const {
     const double s = t - standing;
@@ -71,6 +72,10 @@ struct MadeDrive {
     result.velocity_covariance = 0.01 * Matrix3d::Identity();
     constexpr double golden = 0.618034;  // spreads the wrong ones
     if (std::fmod(2.0 * t * golden, 1.0) < wrong_share) result.velocity_enu.x() += 20.0;
+    if (every_other && std::fmod(t, 1.0) > 0.25) {
+      result.velocity_enu.setZero();
+      result.velocity_covariance = 1e4 * Matrix3d::Identity();
+    }
     return result;
   }
 };
@@ -105,6 +110,16 @@ TEST(MountAlignment, IsFoundInEveryOctantAndAlongTheAxes) {
       }
     }
   }
+}
+
+TEST(MountAlignment, FixesWithoutAVelocityAreNoRestAndInterruptNothing) {
+  MadeDrive car;
+  car.R_body_unit = rotation(40.0, -40.0, 130.0);
+  car.gyro_bias = {0.005, -0.009, 0.006};
+  car.every_other = true;
+  const Mount mount = mount_after(car, 60.0);
+  EXPECT_EQ(mount.status, MountStatus::found);
+  EXPECT_LT(angle_between(mount.R_body_unit, car.R_body_unit), 0.5);
 }
 
 TEST(MountAlignment, ReducedSamplesAreThoseOfAUnitAlongTheBody) {

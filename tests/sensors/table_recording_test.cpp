@@ -1,6 +1,7 @@
 // These tests replay drives that are tables of fixes and inertial samples.
 #include "sensors/folder/table_recording.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -74,6 +75,38 @@ TEST_F(Tables, AFixIsWhatItsRowSays) {
   EXPECT_EQ(tables.first_stamp(), fixes[0].stamp);
   EXPECT_EQ(tables.last_stamp(), fixes[1].stamp);
   EXPECT_FALSE(tables.has_reference());
+}
+
+TEST_F(Tables, ASigmaOfZeroIsNotKnown) {
+  write("gnss.csv", std::string(gnss_heading) +
+                        "0.0,43.5,-79.7,100,1,2,-3,0,0,0,0,0,0,0\n"
+                        "0.5,43.5,-79.7,100,1,2,-3,0,0.5,0,0.1,0,0,0\n");
+  const auto fixes = read_all(opened().gnss());
+  const GnssTable defaults;
+  EXPECT_NEAR(fixes[0].position_covariance(0, 0),
+              defaults.default_position_sigma * defaults.default_position_sigma, 1e-12);
+  EXPECT_NEAR(fixes[0].velocity_covariance(0, 0),
+              defaults.default_velocity_sigma * defaults.default_velocity_sigma, 1e-12);
+  EXPECT_NEAR(fixes[1].position_covariance(0, 0), 0.25, 1e-12);
+}
+
+TEST_F(Tables, AUnitThatFeelsNoGravityOrTurnsTooFastIsAskedForItsUnits) {
+  const auto rows = [](double rate, double force) {
+    std::string text = imu_heading;
+    for (int i = 0; i < 300; ++i) {
+      text += fmt::format("{:.2f},0,0,{},0.1,0.2,{}\n", 0.01 * i, i % 2 == 0 ? rate : 0.0, force);
+    }
+    return text;
+  };
+  write("imu.csv", rows(0.2, 9.8));
+  EXPECT_EQ(refusal(), "");
+  write("imu.csv", rows(0.2, 1.0));
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("imu.csv"), HasSubstr("1.02 m/s^2 is the specific force"),
+                               HasSubstr("accelerometer_unit")));
+  write("imu.csv", rows(0.2, 980.0 / 9.8));
+  EXPECT_THAT(refusal(), HasSubstr("accelerometer_unit"));
+  write("imu.csv", rows(20.0, 9.8));
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("20 rad/s"), HasSubstr("gyro_unit")));
 }
 
 TEST_F(Tables, TimesOfTodayCountFrom1970AndColumnsMayHaveAnyOrder) {

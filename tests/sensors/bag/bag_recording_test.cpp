@@ -93,8 +93,9 @@ TEST(BagRecording, TakesTheGivenTopics) {
   EXPECT_FALSE(bag.has(BagSensor::camera_left));
   const auto fixes = all_of(bag.gnss());
   ASSERT_EQ(fixes.size(), 4U);
-  EXPECT_EQ(fixes[1].velocity_enu.x(), 11.842084178285);  // of the message before the fix
-  EXPECT_EQ(fixes[1].velocity_stamp, fixes[0].stamp);
+  // The message of the velocity comes after that of the fix whose stamp it has.
+  EXPECT_EQ(fixes[0].velocity_enu.x(), 11.842084178285);
+  for (const GnssFix& fix : fixes) EXPECT_EQ(fix.velocity_stamp, fix.stamp);
   EXPECT_EQ(bag.frame_count(), 4U);
 }
 
