@@ -32,7 +32,9 @@ void PathFilter::reset() {
 }
 
 void PathFilter::step(const PathEvidence& e, const NearLinks& near) {
-  const double keep = std::exp(-e.motion.interval / parameters_->memory);
+  // A vehicle that stands stays on its road, whatever the errors of its fixes do meanwhile.
+  const double driven = e.motion.speed < PathKalman::standing ? 0.0 : e.motion.interval;
+  const double keep = std::exp(-driven / parameters_->memory);
   for (std::size_t i = 0; i < count_; ++i) {
     hypotheses_[i].parent = static_cast<std::uint32_t>(i);
     hypotheses_[i].log_weight *= keep;
@@ -42,7 +44,7 @@ void PathFilter::step(const PathEvidence& e, const NearLinks& near) {
   turn_round(e);
   for (std::size_t i = 0; i < count_; ++i) kalman_.correct(hypotheses_[i], e);
   normalize();
-  since_birth_ += e.motion.interval;
+  since_birth_ += driven;
   if (count_ == 0 || since_birth_ >= birth_interval - 1e-3) {
     begin_paths(e, near);
     since_birth_ = 0.0;

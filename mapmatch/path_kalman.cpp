@@ -11,7 +11,6 @@ namespace {
 constexpr double chord = 6.0;      // m before and after, chord of the path's azimuth
 constexpr double bend_step = 3.0;  // m before and after, where its change is measured
 constexpr double edge_cost = 0.3;  // log weight per metre driven past a dead end
-constexpr double standing = 0.3;   // m/s
 constexpr double lost = 9.0;  // sigmas squared along the path, beyond which it counts as misfit
 
 double squared(double x) {

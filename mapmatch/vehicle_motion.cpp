@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/LU>
 
@@ -127,12 +128,15 @@ Motion VehicleMotion::add(const VehicleFix& fix, const Eigen::Vector2d& place,
   const Eigen::Vector2d velocity = course_.tail<2>();
   const double velocity_sigma =
       std::sqrt(0.5 * course_covariance_.bottomRightCorner<2, 2>().trace());
-  motion.speed = std::isfinite(fix.speed) ? fix.speed : velocity.norm();
+  // A velocity within its own sigma is noise, and the vehicle may stand.
+  const bool moves = velocity.norm() > std::numbers::sqrt2 * velocity_sigma;
+  motion.speed = std::isfinite(fix.speed) ? fix.speed : moves ? velocity.norm() : 0.0;
   motion.speed_sigma = std::isfinite(fix.speed) ? fix.speed_sigma : velocity_sigma;
   if (std::isfinite(fix.azimuth)) {
     motion.azimuth = fix.azimuth;
     motion.azimuth_sigma = fix.azimuth_sigma;
-  } else if (velocity.norm() > std::max(parameters.min_speed, 2.0 * velocity_sigma)) {
+  } else if (motion.speed > parameters.min_speed &&
+             velocity.norm() > std::max(parameters.min_speed, 2.0 * velocity_sigma)) {
     motion.azimuth = std::atan2(velocity.x(), velocity.y());
     motion.azimuth_sigma = velocity_sigma / velocity.norm();
   }

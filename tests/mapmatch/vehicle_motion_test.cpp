@@ -46,6 +46,30 @@ TEST(VehicleMotion, SpeedAndAzimuthComeFromPositionsWhereTheyAreNotTold) {
   EXPECT_GT(motion.azimuth_sigma, radians(2.0));
 }
 
+TEST(VehicleMotion, AStandingVehicleHasNoAzimuthWhateverItsFixesDo) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (const bool told : {true, false}) {
+    VehicleMotion motion;
+    Eigen::Vector2d error(5.0, -5.0);  // changes slowly, as under trees
+    double way = 0.0;
+    int directed = 0;
+    for (int i = 0; i < 120; ++i) {
+      VehicleFix fix;
+      fix.stamp = Time(from_seconds(100.0 + i));
+      fix.covariance = 25.0 * Eigen::Matrix2d::Identity();
+      if (told) fix.speed = 0.0;
+      error = 0.967 * error + 1.27 * Eigen::Vector2d(normal(random), normal(random));
+      const Motion last = motion.add(fix, error, {});
+      if (i < 20) continue;
+      way += last.distance;
+      directed += std::isfinite(last.azimuth) ? 1 : 0;
+    }
+    EXPECT_EQ(directed, 0) << told;
+    EXPECT_LT(way, told ? 1e-9 : 40.0);
+  }
+}
+
 TEST(VehicleMotion, TurnsAreChangesOfOneSecondAtEveryRateAndWrapped) {
   for (const int rate : {1, 5, 10}) {
     VehicleMotion motion;

@@ -64,7 +64,7 @@ std::optional<SensorHealth> examine_sensor(const char* name,
   health.jitter = quantile(std::move(periods), 0.9);
   health.delay = quantile(std::move(delays), 0.5);
   health.left_out = source->report().refused;
-  if (!source->report().refusals.empty()) health.finding = source->report().refusals.front().reason;
+  health.finding = source->report().main_reason();
   return health;
 }
 
@@ -80,7 +80,7 @@ void add_findings(const SensorHealth& s, std::vector<std::string>& sentences) {
     return;
   }
   if (s.left_out > 0) {
-    sentences.push_back(fmt::format("{} of {} of {} were left out, the first because: {}.",
+    sentences.push_back(fmt::format("{} of {} of {} were left out, most because: {}.",
                                     s.left_out, s.samples + s.left_out, s.name, s.finding));
   }
   constexpr double many_periods = 5.0;
@@ -147,7 +147,7 @@ std::vector<std::string> advice(const std::vector<SensorHealth>& sensors, const 
   for (const char* name : {"camera", "lidar", "odometry", "imu", "wheel", "gnss", "epochs"})
     if (find(sensors, name) != nullptr) used += (used.empty() ? "" : ", ") + std::string(name);
   sentences.push_back("A replay can combine " + used + ".");
-  if (find(sensors, "imu") == nullptr)
+  if (std::ranges::find(sensors, "imu", &SensorHealth::name) == sensors.end())
     sentences.push_back("There is no inertial unit: between the fixes only odometry carries on.");
   if (find(sensors, "reference") == nullptr)
     sentences.push_back("There is no reference, so that a replay is not scored.");

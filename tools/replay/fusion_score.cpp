@@ -33,11 +33,12 @@ double median_accuracy(const std::vector<Sample>& samples) {
   return tools::median(values);
 }
 
+constexpr Duration neighbours = std::chrono::milliseconds(500);
+
 // The longest time for which all successive samples are bad. Two samples further apart than
 // `neighbours` are not successive.
 template <class Iterator, class Bad>
 double longest(Iterator first, Iterator last, Bad bad) {
-  constexpr Duration neighbours = std::chrono::milliseconds(500);
   Duration most{};
   Time since{};
   for (auto s = first; s != last; ++s) {
@@ -91,6 +92,15 @@ bool NavTrack::add(const NavState& state) {
   while (!states_.empty() && states_.back().stamp >= state.stamp) states_.pop_back();
   states_.push_back(state);
   return true;
+}
+
+double NavTrack::silent_until(Time end) const {
+  Duration silent{};
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const Duration step = (i + 1 < states_.size() ? states_[i + 1].stamp : end) - states_[i].stamp;
+    if (step > neighbours) silent += step;
+  }
+  return to_seconds(silent);
 }
 
 std::vector<ScoredState> scored_states(const NavTrack& track,

@@ -19,6 +19,8 @@ class NavTrack {
   // Returns whether it is kept.
   bool add(const NavState& state);
   const std::vector<NavState>& states() const { return states_; }
+  // Returns for how long there was no state between the first one and `end`, s.
+  double silent_until(Time end) const;
 
  private:
   std::vector<NavState> states_;

@@ -76,9 +76,10 @@ struct ReplayResult {
   bool lockstep = false;
   double speed = 1.0;
   bool interrupted = false;
-  std::size_t images = 0;       // of the drive
-  bool has_gnss = true;         // the recording has fixes or observations
-  std::optional<NavState> end;  // the last fused state; nothing: the filter never started
+  std::size_t images = 0;         // of the drive
+  bool has_gnss = true;           // the recording has fixes or observations
+  std::optional<NavState> end;    // the last fused state; nothing: the filter never started
+  double without_position = 0.0;  // s after the first position in which there was none
   std::optional<MapUse> map;
   std::optional<Accuracy> vo;  // nothing where there is too little to score
   std::optional<Accuracy> lidar;

@@ -158,6 +158,7 @@ vehicle::Observer RunPass::end_observer() {
 ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report) {
   ReplayResult result;
   result.end = pass.end;
+  result.without_position = pass.track.silent_until(report.last);
   result.vehicle = report;
   result.channels = pass.hashes.summary();
   result.feedbacks = pass.feedbacks;

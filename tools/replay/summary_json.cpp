@@ -60,6 +60,7 @@ json replay_json(const ReplayResult& r) {
           {"speed", r.speed},
           {"images", r.images},
           {"data_s", v.data_seconds},
+          {"without_position_s", r.without_position},
           {"wall_s", v.wall_seconds},
           {"cpu_s", v.cpu_seconds},
           {"peak_memory_bytes", v.peak_memory},

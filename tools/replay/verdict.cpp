@@ -37,8 +37,13 @@ std::string where(const ReplayResult& r) {
   if (!r.end) return fmt::format("{} {:.1f} s: no position.", begin, r.vehicle.data_seconds);
   const Geodetic place = LocalFrame(r.end->origin).to_geodetic(r.end->position_enu);
   const double sigma = std::sqrt(std::max(0.0, r.end->covariance.topLeftCorner<2, 2>().trace()));
-  return fmt::format("{} {:.1f} s at {:.6f} {} {:.6f} {}, +-{:.{}f} m (1 sigma).", begin,
-                     r.vehicle.data_seconds, std::abs(degrees(place.latitude)),
+  constexpr double soon = 1.0;  // s
+  const double ago = to_seconds(r.vehicle.last - r.end->stamp);
+  const std::string none_since =
+      ago > soon ? fmt::format(": no position since {:.1f} s, then", r.vehicle.data_seconds - ago)
+                 : std::string();
+  return fmt::format("{} {:.1f} s{} at {:.6f} {} {:.6f} {}, +-{:.{}f} m (1 sigma).", begin,
+                     r.vehicle.data_seconds, none_since, std::abs(degrees(place.latitude)),
                      place.latitude < 0.0 ? 'S' : 'N', std::abs(degrees(place.longitude)),
                      place.longitude < 0.0 ? 'W' : 'E', sigma, sigma < 1000.0 ? 1 : 0);
 }
@@ -58,7 +63,7 @@ std::string against_peers(const ReplayResult& r) {
                      errors.size(), median(errors), worst);
 }
 
-std::string how_good(const ReplayResult& r) {
+std::string score_of(const ReplayResult& r) {
   if (r.outage_ends.empty() && r.navigation && r.navigation->whole.covered == 0.0)
     return "Not scored: no state is within the time that is scored and has a reference.";
   if (!r.outage_ends.empty() || (r.peer_reference && r.navigation)) return against_peers(r);
@@ -83,6 +88,13 @@ std::string how_good(const ReplayResult& r) {
                : "Not scored: there is no position.";
 }
 
+std::string how_good(const ReplayResult& r) {
+  constexpr double worth_saying = 1.0;  // s
+  const std::string score = score_of(r);
+  if (r.without_position < worth_saying) return score;
+  return fmt::format("{} No position for {:.0f} s after the first.", score, r.without_position);
+}
+
 // Most important first.
 std::vector<std::string> unused(const ReplayResult& r) {
   std::vector<std::string> items;
@@ -104,8 +116,7 @@ std::vector<std::string> unused(const ReplayResult& r) {
   }
   for (const vehicle::SensorReport& s : r.vehicle.sensors) {
     if (s.source.refused == 0) continue;
-    const std::string_view reason =
-        s.source.refusals.empty() ? std::string_view() : s.source.refusals.front().reason;
+    const std::string_view reason = s.source.main_reason();
     items.push_back(reason == sensors::AlignedImu::not_yet_known
                         ? fmt::format("{} of {} ({})", s.source.refused, s.name, reason)
                         : fmt::format("{} of {} left out by the reader", s.source.refused, s.name));

@@ -115,6 +115,7 @@ int listen_to_sensors(const ListenOptions& options) {
   const Time end = clock.now() + from_seconds(options.seconds);
   std::deque<Heard> heard;
   std::vector<std::function<void()>> listeners;
+  listeners.reserve(6);
   const auto add = [&]<class T>(const char* name,
                                 const std::unique_ptr<sensors::LiveSource<T>>& source) {
     if (source == nullptr) return;

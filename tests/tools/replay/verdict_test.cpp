@@ -50,6 +50,30 @@ TEST(Verdict, SaysWhereHowGoodAndWhatWasNotUsed) {
   EXPECT_EQ(why_empty(r), std::nullopt);
 }
 
+TEST(Verdict, AnOldPositionIsNotTheOneAtTheEnd) {
+  ReplayResult r = good();
+  r.vehicle.last = Time(std::chrono::seconds(1000));
+  r.end->stamp = r.vehicle.last - std::chrono::seconds(6);
+  r.without_position = 6.0;
+  const auto lines = verdict(r);
+  EXPECT_EQ(lines[0],
+            "After 14.9 s: no position since 8.9 s, then at 49.000000 N 8.400000 W, +-2.0 m "
+            "(1 sigma).");
+  EXPECT_THAT(lines[1], HasSubstr("the reference. No position for 6 s after the first."));
+}
+
+TEST(NavTrack, CountsTheTimeWithoutAPosition) {
+  fusion_score::NavTrack track;
+  for (const double t : {0.0, 0.1, 0.2, 5.2, 5.3}) {
+    NavState state;
+    state.stamp = Time(from_seconds(100.0 + t));
+    state.status = NavStatus::aided;
+    track.add(state);
+  }
+  EXPECT_NEAR(track.silent_until(Time(from_seconds(105.4))), 5.0, 1e-9);
+  EXPECT_NEAR(track.silent_until(Time(from_seconds(108.3))), 8.0, 1e-9);
+}
+
 TEST(Verdict, ScoresNothingWhereNothingIsScored) {
   ReplayResult r = good();
   for (const bool peer : {false, true}) {
