@@ -4,6 +4,7 @@
 #include <charconv>
 #include <map>
 
+#include "ppp/readers/files/refused_epochs.h"
 #include "ppp/readers/streams/epoch_builder.h"
 
 namespace maploop::ppp {
@@ -63,34 +64,62 @@ class CompactReader {
  public:
   CompactReader(Lines& lines, Observations& result) : lines_(lines), result_(result) {
     lines.next();
-    const double version = lines.number(0, 20, "version of compact RINEX");
-    if (version != 1.0 && version != 3.0 && version != 3.1)
-      lines.fail("unknown version; compact RINEX 1.0, 3.0 and 3.1 are supported");
-    if (!lines.next()) lines.fail("the file ends inside its header");
-    in_force_ = read_observation_header(lines);
-    if (in_force_.version3() != (version >= 3.0)) {
-      lines.fail(
-          "compact RINEX 1 must contain RINEX 2, and compact RINEX 3 must contain RINEX 3 or 4");
-    }
+    in_force_ = read_header();
     result.header = in_force_.header;
   }
 
   void read() {
-    while (lines_.next()) {
-      if (!read_epoch()) {
-        refuse(result_, lines_, "the file ends inside an epoch, which is left out");
-        return;
-      }
-    }
+    read_epochs(lines_, result_, {[this] { return read_part(); }, [this] { return resumes(); }});
   }
 
  private:
+  // Reads from the current line on.
+  HeaderInForce read_header() {
+    const double version = lines_.number(0, 20, "version of compact RINEX");
+    if (version != 1.0 && version != 3.0 && version != 3.1)
+      lines_.fail("unknown version; compact RINEX 1.0, 3.0 and 3.1 are supported");
+    if (!lines_.next() || !lines_.next()) lines_.fail("the file ends inside its header");
+    HeaderInForce header = read_observation_header(lines_);
+    if (header.version3() != (version >= 3.0)) {
+      lines_.fail(
+          "compact RINEX 1 must contain RINEX 2, and compact RINEX 3 must contain RINEX 3 or 4");
+    }
+    return header;
+  }
+
+  // Reads an epoch, or the header of a second file that was appended to this one.
+  bool read_part() {
+    if (!is_compact(lines_.line())) return read_epoch();
+    forget_epochs();
+    columns_known_ = false;
+    in_force_ = read_header();
+    columns_known_ = true;
+    take_event(in_force_, lines_, result_);
+    return true;
+  }
+
+  bool is_initial(std::string_view line) const {
+    return !line.empty() && line[0] == (in_force_.version3() ? '>' : '&');
+  }
+
+  // Returns whether an epoch that refers to none before begins here.
+  bool resumes() {
+    if (!columns_known_ || !(is_initial(lines_.line()) || is_compact(lines_.line()))) return false;
+    forget_epochs();
+    return true;
+  }
+
+  void forget_epochs() {
+    epoch_line_.clear();
+    clock_.end();
+    satellites_state_.clear();
+  }
+
   bool read_epoch() {
     if (!lines_.whole()) return false;
     const bool three = in_force_.version3();
     auto line = lines_.line();
-    const bool initial = !line.empty() && line[0] == (three ? '>' : '&');
-    if (initial) {
+    if (is_initial(line)) {
       epoch_line_.assign(line);
       if (!three) epoch_line_[0] = ' ';
     } else if (epoch_line_.empty()) {
@@ -123,10 +152,12 @@ class CompactReader {
   }
 
   bool read_event(int count) {
+    columns_known_ = false;
     for (int i = 0; i < count; ++i) {
       if (!lines_.next() || !lines_.whole()) return false;
       apply_header_record(lines_, in_force_);
     }
+    columns_known_ = true;
     take_event(in_force_, lines_, result_);
     epoch_line_.clear();  // the next epoch line is complete again
     return true;
@@ -177,7 +208,6 @@ class CompactReader {
 
   void read_satellite(Satellite satellite, Epoch& epoch) {
     const auto types = result_.header.types[static_cast<std::size_t>(satellite.system)].size();
-    if (types == 0) lines_.fail("the header has no observation types for " + to_string(satellite));
     SatelliteArcs& state = satellites_state_[satellite];
     if (state.epoch != epoch_number_ - 1 || state.arcs.size() != types) {
       state.arcs.assign(types, {});
@@ -206,6 +236,7 @@ class CompactReader {
   Lines& lines_;
   Observations& result_;
   HeaderInForce in_force_;
+  bool columns_known_ = true;  // false while, and for ever if, records inside the file are not read
   std::string epoch_line_;
   Arc clock_;
   int epoch_number_ = 0;

@@ -10,8 +10,8 @@ namespace maploop::ppp {
 
 bool is_compact(std::string_view first_line);
 
-// Reads as parse_observations() describes. A difference without a value to refer to throws
-// ReadError.
+// Reads as parse_observations() describes. Behind an epoch that cannot be read, those that refer to
+// it are left out, too.
 void read_compact(Lines& lines, Observations& result);
 
 }  // namespace maploop::ppp

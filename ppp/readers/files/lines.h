@@ -22,7 +22,7 @@ class ReadError : public std::runtime_error {
 // Returns the whole content, decompressed if it is gzip (recognized by content). Throws ReadError
 // naming the file if it cannot be read, is damaged, or is larger than input_limits::gnss_file.
 std::string read_file(const std::filesystem::path& path);
-// Returns the first 4096 bytes of the content, or fewer if the file is shorter.
+// Returns the first 64 KiB of the content, or fewer if the file is shorter.
 std::string read_head(const std::filesystem::path& path);
 
 // Returns columns [first, first + width) of a line, or fewer or none if the line is shorter.
@@ -40,8 +40,11 @@ std::optional<int> parse_integer(std::string_view text);
 
 class Lines {
  public:
-  // Holds views into `text`, which must outlive this.
-  Lines(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
+  // Holds views into `text`, which must outlive this. Bytes of no text at its end are left out:
+  // zeros, which an interrupted writer leaves on a disk, and DOS's mark of the end.
+  Lines(std::string_view text, std::string file)
+      : text_(text.substr(0, text.find_last_not_of(std::string_view("\0\x1a", 2)) + 1)),
+        file_(std::move(file)) {}
 
   // Goes to the next line, without its end of line (\n or \r\n). Returns false at the end of the
   // text.

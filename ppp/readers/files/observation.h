@@ -8,9 +8,10 @@
 
 namespace maploop::ppp {
 
-// Parses the text of one such file; its first line tells the format. An incomplete last epoch, an
-// epoch that is not after the previous one, and a satellite or value that cannot be right are
-// refused and counted. Anything else that is wrong throws ReadError with file and line.
+// Parses the text of one such file, or of several one after another; its first line tells the
+// format. An epoch that cannot be read or is not after the previous one, and a satellite or value
+// that cannot be right, are refused and counted. Throws ReadError with file and line if the header
+// or more than half of the rest cannot be read.
 Observations parse_observations(std::string_view text, const std::string& file);
 
 }  // namespace maploop::ppp

@@ -10,7 +10,7 @@ namespace {
 constexpr int max_types = 120;
 
 std::string_view label(const Lines& lines) {
-  return trimmed(lines.column(60, 20));
+  return header_label(lines.line());
 }
 
 std::string text_of(std::string_view columns) {
@@ -164,6 +164,10 @@ Duration offset_of_time_system(const Lines& lines, const ObservationHeader& head
 
 }  // namespace
 
+std::string_view header_label(std::string_view line) {
+  return trimmed(columns(line, 60, 20));
+}
+
 void apply_header_record(Lines& lines, HeaderInForce& in_force) {
   ObservationHeader& header = in_force.header;
   const auto name = label(lines);
@@ -213,7 +217,7 @@ void take_event(HeaderInForce& in_force, const Lines& lines, Observations& resul
 HeaderInForce read_observation_header(Lines& lines) {
   HeaderInForce in_force;
   ObservationHeader& header = in_force.header;
-  if (!lines.next() || label(lines) != "RINEX VERSION / TYPE") {
+  if (label(lines) != "RINEX VERSION / TYPE") {
     lines.fail("a RINEX file starts with RINEX VERSION / TYPE");
   }
   header.version = lines.number(0, 9, "version");

@@ -13,8 +13,10 @@ struct HeaderInForce {
   bool version3() const { return header.version >= 3.0; }
 };
 
-// Reads up to END OF HEADER.
+// Reads from the current line, RINEX VERSION / TYPE, up to END OF HEADER.
 HeaderInForce read_observation_header(Lines& lines);
+// Returns what a line of a header says it contains.
+std::string_view header_label(std::string_view line);
 
 // Applies the header record of the current line, also one of an event inside the file: types of
 // observation, scale factors, marker, receiver, antenna, approximate position, interval or GLONASS

@@ -6,28 +6,35 @@ namespace maploop::ppp {
 
 namespace {
 
-void refuse_at(Observations& observations, const std::string& place, const std::string& why) {
+void refuse_because(Observations& observations, const std::string& reason) {
   constexpr std::size_t max_reasons = 20;
   ++observations.refused;
-  if (observations.refusals.size() < max_reasons) {
-    observations.refusals.push_back(place + ": " + why);
-  }
+  if (observations.refusals.size() < max_reasons) observations.refusals.push_back(reason);
 }
 
 }  // namespace
 
 void refuse(Observations& observations, const Lines& lines, const std::string& why) {
-  refuse_at(observations, lines.file() + ":" + std::to_string(lines.line_number()), why);
+  refuse_because(observations,
+                 lines.file() + ":" + std::to_string(lines.line_number()) + ": " + why);
+}
+
+void refuse(Observations& observations, const ReadError& error) {
+  refuse_because(observations, error.what());
 }
 
 void refuse(Observations& observations, std::size_t offset, const std::string& why) {
-  refuse_at(observations, observations.file + ": byte " + std::to_string(offset), why);
+  refuse_because(observations, observations.file + ": byte " + std::to_string(offset) + ": " + why);
 }
 
 void append_satellite(Observations& observations, const Lines& lines, Satellite satellite,
                       std::span<const Value> values, Epoch& epoch) {
   const auto system = static_cast<std::size_t>(satellite.system);
   const auto& types = observations.header.types[system];
+  if (types.empty()) {
+    refuse(observations, lines, "the header has no observation types for " + to_string(satellite));
+    return;
+  }
   for (const SatelliteSignals& other : epoch.satellites) {
     if (other.satellite == satellite) {
       refuse(observations, lines, to_string(satellite) + " occurs twice in one epoch");

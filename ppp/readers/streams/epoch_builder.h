@@ -12,6 +12,8 @@ struct Value {
 
 // Counts a refused satellite or epoch and keeps the first reasons, with file and line.
 void refuse(Observations& observations, const Lines& lines, const std::string& why);
+// Does the same for an error, which names them.
+void refuse(Observations& observations, const ReadError& error);
 // Does the same for a stream, with the offset of a byte.
 void refuse(Observations& observations, std::size_t offset, const std::string& why);
 

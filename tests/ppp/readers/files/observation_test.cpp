@@ -161,21 +161,5 @@ TEST(ObservationFile, ACutLastEpochIsRefusedAndTheRestKept) {
   }
 }
 
-TEST(ObservationFile, ErrorsNameFileAndLine) {
-  MAPLOOP_REQUIRE_REAL_DATA();
-  std::string text = read_file(gnss("parser_samples/zegv0010.21o"));
-  const auto header = text.find("END OF HEADER");
-  const auto lines = std::count(text.begin(), text.begin() + static_cast<long>(header), '\n');
-  text[text.find("24178026.635", header)] = 'x';
-  try {
-    parse_observations(text, "station.obs");
-    FAIL() << "a letter in a pseudorange";
-  } catch (const ReadError& error) {
-    EXPECT_NE(std::string(error.what()).find("station.obs:" + std::to_string(lines + 4)),
-              std::string::npos)
-        << error.what();
-  }
-}
-
 }  // namespace
 }  // namespace maploop::ppp
