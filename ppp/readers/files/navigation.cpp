@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <utility>
 
 namespace maploop::ppp {
 namespace {
@@ -36,8 +35,14 @@ class NavigationReader {
     const auto type = lines_.column(20, 1);
     if (type == "G" && !three_) {
       default_system_ = System::glonass;
-    } else if (type != "N") {
-      lines_.fail("not a navigation file: column 21 must contain N, or G in RINEX 2");
+    } else if (type == "H") {
+      default_system_ = System::sbas;
+    } else if (type == "N") {
+      // RINEX 2.12 may contain another system than GPS: "E: Galileo".
+      const auto system = lines_.column(40, 1);
+      if (!system.empty()) default_system_ = system_of(system[0]).value_or(System::gps);
+    } else {
+      lines_.fail("not a navigation file: column 21 must contain N, or G or H in RINEX 2");
     }
     while (lines_.next()) {
       const auto label = trimmed(lines_.column(60, 20));
@@ -111,6 +116,8 @@ class NavigationReader {
 
   // Returns false if the file ended inside the message.
   bool read_message() {
+    // RINEX 2.12 may name the system in each message, which then has the columns of RINEX 3.
+    three_ = version_ >= 3.0 || system_of(lines_.line()[0]).has_value();
     const std::size_t name_width = three_ ? 3 : 2;
     Satellite satellite{default_system_, 0};
     if (three_) {
@@ -127,9 +134,9 @@ class NavigationReader {
     }
     const GpsTime stamp = parse_stamp(lines_, lines_.column(name_width, 20));
     const bool states = satellite.system == System::glonass || satellite.system == System::sbas;
-    // Version 3.05 gives GLONASS a line of status flags.
-    const bool flags = version_ >= 3.045 && satellite.system == System::glonass;
-    if (!read_values(flags ? 19 : states ? 15 : 31)) return false;
+    if (!read_values(states ? 15 : 31)) return false;
+    // Version 3.05 gives GLONASS a line of status flags; some writers do so earlier or never.
+    if (states && continues(lines_.peek())) lines_.next();
     if (satellite.system == System::sbas || satellite.system == System::navic) {
       ++result_.skipped;
     } else if (satellite.system == System::glonass) {
@@ -138,6 +145,12 @@ class NavigationReader {
       keep_kepler(satellite, stamp);
     }
     return true;
+  }
+
+  // Returns whether a line belongs to the message before it, because it begins with blanks.
+  bool continues(std::string_view line) const {
+    const std::size_t indent = three_ ? 4 : 3;
+    return line.size() > indent && blank(line.substr(0, indent));
   }
 
   // Reads values from this line on. Returns false if the file ends before the last one.
@@ -220,60 +233,6 @@ class NavigationReader {
 };
 
 }  // namespace
-
-void BroadcastMessages::take(BroadcastMessages& from) {
-  std::swap(kepler, from.kepler);
-  std::swap(glonass, from.glonass);
-  std::swap(ionosphere, from.ionosphere);
-  from.kepler.clear();
-  from.glonass.clear();
-  from.ionosphere.clear();
-}
-
-void BroadcastMessages::limit(std::size_t most) {
-  if (kepler.size() > most) kepler.clear();
-  if (glonass.size() > most) glonass.clear();
-  if (ionosphere.size() > most) ionosphere.clear();
-}
-
-bool plausible(const KeplerMessage& m) {
-  return m.e >= 0.0 && m.e < 0.5 && m.sqrt_a >= 4000.0 && m.sqrt_a <= 8000.0 &&
-         std::abs(m.af0) <= 1.0;
-}
-
-bool plausible(const GlonassMessage& m) {
-  const double radius = m.position.norm();
-  return radius >= 2.3e7 && radius <= 2.8e7 && m.velocity.norm() <= 5e3 &&
-         std::abs(m.minus_tau) <= 1.0 && m.channel >= -7 && m.channel <= 13;
-}
-
-bool plausible(const IonosphereCoefficients& coefficients) {
-  // These are the largest values of eight bits, and of Galileo's eleven and fourteen.
-  static constexpr std::array<double, 8> max_klobuchar{0x1p-23, 0x1p-20, 0x1p-17, 0x1p-17,
-                                                       0x1p18,  0x1p21,  0x1p23,  0x1p23};
-  static constexpr std::array<double, 3> max_level{512.0, 4.0, 0.25};
-  const auto within = [](const auto& values, const auto& most) {
-    bool nonzero = false;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!(std::abs(values[i]) <= most[i])) return false;
-      nonzero |= values[i] != 0.0;
-    }
-    return nonzero;
-  };
-  if (const auto* k = std::get_if<Klobuchar>(&coefficients))
-    return within(k->values, max_klobuchar);
-  return within(std::get<IonisationLevel>(coefficients).values, max_level);
-}
-
-void refuse(NavigationFile& navigation, const std::string& place, const std::string& why) {
-  constexpr std::size_t max_reasons = 20;
-  ++navigation.refused;
-  if (navigation.refusals.size() < max_reasons) navigation.refusals.push_back(place + ": " + why);
-}
-
-void refuse(NavigationFile& navigation, std::size_t offset, const std::string& why) {
-  refuse(navigation, navigation.file + ": byte " + std::to_string(offset), why);
-}
 
 NavigationFile parse_navigation(std::string_view text, const std::string& file) {
   NavigationFile result;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "ppp/readers/files/observation.h"
+#include "tests/ppp/readers/files/header_record.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::ppp {
@@ -182,17 +183,15 @@ TEST(RefusedEpochs, InRinex2ReadingGoesOnAtTheNextEpochLine) {
   }
 }
 
-std::string record(std::string content, const char* label) {
-  content.resize(60, ' ');
-  return content + label + '\n';
-}
-
 // Compact RINEX 3 of one satellite, whose third epoch is complete again.
 std::string compact_file() {
-  return record("3.0                 COMPACT RINEX FORMAT", "CRINEX VERS   / TYPE") +
-         record("by hand", "CRINEX PROG / DATE") +
-         record("     3.04           OBSERVATION DATA    G", "RINEX VERSION / TYPE") +
-         record("G    1 C1C", "SYS / # / OBS TYPES") + record("", "END OF HEADER") +
+  return maploop::testing::header_record("3.0                 COMPACT RINEX FORMAT",
+                                         "CRINEX VERS   / TYPE") +
+         maploop::testing::header_record("by hand", "CRINEX PROG / DATE") +
+         maploop::testing::header_record("     3.04           OBSERVATION DATA    G",
+                                         "RINEX VERSION / TYPE") +
+         maploop::testing::header_record("G    1 C1C", "SYS / # / OBS TYPES") +
+         maploop::testing::header_record("", "END OF HEADER") +
          "> 2021 01 01 00 00  0.0000000  0  1      G05\n\n3&20000000000\n" +
          "                    1\n\n1000\n" +
          "> 2021 01 01 00 00  2.0000000  0  1      G05\n\n3&20000002000\n" +
