@@ -6,6 +6,7 @@
 
 #include "ppp/readers/files/refused_epochs.h"
 #include "ppp/readers/streams/epoch_builder.h"
+#include "ppp/readers/streams/epoch_sequence.h"
 
 namespace maploop::ppp {
 namespace {
@@ -70,6 +71,7 @@ class CompactReader {
 
   void read() {
     read_epochs(lines_, result_, {[this] { return read_part(); }, [this] { return resumes(); }});
+    sequence_.finish();
   }
 
  private:
@@ -147,7 +149,7 @@ class CompactReader {
       if (!lines_.next() || !lines_.whole()) return false;
       read_satellite(satellite, epoch);
     }
-    keep_epoch(result_, lines_, epoch);
+    sequence_.add(epoch);
     return true;
   }
 
@@ -235,6 +237,7 @@ class CompactReader {
 
   Lines& lines_;
   Observations& result_;
+  EpochSequence sequence_{result_, lines_};
   HeaderInForce in_force_;
   bool columns_known_ = true;  // false while, and for ever if, records inside the file are not read
   std::string epoch_line_;

@@ -3,6 +3,7 @@
 #include "ppp/readers/files/compact_observation.h"
 #include "ppp/readers/files/refused_epochs.h"
 #include "ppp/readers/streams/epoch_builder.h"
+#include "ppp/readers/streams/epoch_sequence.h"
 
 namespace maploop::ppp {
 namespace {
@@ -51,6 +52,7 @@ class PlainReader {
 
   void read() {
     read_epochs(lines_, result_, {[this] { return read_part(); }, [this] { return resumes(); }});
+    sequence_.finish();
   }
 
  private:
@@ -105,7 +107,7 @@ class PlainReader {
       append_satellite(result_, lines_, satellite, values_, epoch);
     }
     expect_end_of_epoch3();
-    keep_epoch(result_, lines_, epoch);
+    sequence_.add(epoch);
     return true;
   }
 
@@ -145,7 +147,7 @@ class PlainReader {
       if (!lines_.whole()) return false;
       append_satellite(result_, lines_, satellite, values_, epoch);
     }
-    keep_epoch(result_, lines_, epoch);
+    sequence_.add(epoch);
     return true;
   }
 
@@ -195,6 +197,7 @@ class PlainReader {
 
   Lines& lines_;
   Observations& result_;
+  EpochSequence sequence_{result_, lines_};
   HeaderInForce in_force_;
   bool columns_known_ = true;  // false while, and for ever if, records inside the file are not read
   std::vector<Value> values_;

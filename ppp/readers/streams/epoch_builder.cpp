@@ -84,39 +84,4 @@ void append_satellite(Observations& observations, const Lines& lines, Satellite 
   }
 }
 
-namespace {
-
-// Whether the last epoch has a wrong date: it is far ahead of its neighbours, which are in order.
-// If these are the first two epochs of a file, either date may be wrong. The second one is believed
-// then, because otherwise a wrong first date would cost the whole file.
-bool last_was_ahead(const std::vector<Epoch>& epochs, GpsTime next) {
-  constexpr Duration far = std::chrono::minutes(10);
-  const GpsTime last = epochs.back().time;
-  if (last - next <= far) return false;
-  if (epochs.size() == 1) return true;
-  const GpsTime before = epochs[epochs.size() - 2].time;
-  return last - before > far && next > before;
-}
-
-}  // namespace
-
-void keep_epoch(Observations& observations, const Lines& lines, Epoch& epoch) {
-  if (!observations.epochs.empty() && last_was_ahead(observations.epochs, epoch.time)) {
-    refuse(observations, lines,
-           "epoch " + format_gps_time(observations.epochs.back().time) +
-               " is far after this one, " + format_gps_time(epoch.time) +
-               ", which follows it: its date is taken to be wrong");
-    epoch.power_failure |= observations.epochs.back().power_failure;
-    observations.epochs.pop_back();
-  }
-  if (!observations.epochs.empty() && epoch.time <= observations.epochs.back().time) {
-    refuse(observations, lines,
-           "epoch " + format_gps_time(epoch.time) + " is not after the one before, " +
-               format_gps_time(observations.epochs.back().time));
-  } else {
-    observations.epochs.push_back(std::move(epoch));
-  }
-  epoch = {};
-}
-
 }  // namespace maploop::ppp

@@ -20,8 +20,5 @@ void refuse(Observations& observations, std::size_t offset, const std::string& w
 // Appends a satellite. Values that cannot be right and repeated satellites are refused and counted.
 void append_satellite(Observations& observations, const Lines& lines, Satellite satellite,
                       std::span<const Value> values, Epoch& epoch);
-// Keeps an epoch, or refuses it if it is not after the previous one. If only the previous one is
-// far ahead, that one is refused. Takes its content and leaves it empty.
-void keep_epoch(Observations& observations, const Lines& lines, Epoch& epoch);
 
 }  // namespace maploop::ppp
