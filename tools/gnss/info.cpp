@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "ppp/gnss_files.h"
+#include "ppp/unused_signals.h"
 
 namespace maploop::gnss {
 namespace {
@@ -82,6 +83,7 @@ std::string describe(const Observations& o) {
     }
     text += row(std::string("signals ") + letter(system), list);
   }
+  for (const std::string& unused : unused_systems(o.header)) text += row("unused", unused);
   return text + refusals(o.refused, o.refusals);
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "ppp/unused_signals.h"
+
 namespace maploop::gnss {
 
 using namespace maploop::ppp;
@@ -161,6 +163,15 @@ std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, do
   }
   for (const auto& line : run.setup().missing_models()) lines.push_back(line);
   for (const auto& line : run.missing_products()) lines.push_back(line);
+  for (const auto& line : unused_systems(run.setup().observations().header)) lines.push_back(line);
+  for (const NavigationFile& file : files.navigation) {
+    if (file.skipped > 0 && file.kepler.empty() && file.glonass.empty()) {
+      lines.push_back(
+          fmt::format("{}: {} messages are passed over, and others are not in it (SBAS and NavIC "
+                      "are not used)",
+                      file.file, file.skipped));
+    }
+  }
   visit_lists([&](auto list) {
     for (const auto& file : files.*list) append_refusals(file, lines);
   });

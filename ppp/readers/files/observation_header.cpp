@@ -17,10 +17,24 @@ std::string text_of(std::string_view columns) {
   return std::string(trimmed(columns));
 }
 
+// RINEX 2.12 names civil codes that have their own signal by a letter in place of the band.
+struct CivilSignal {
+  char letter, band, attribute;
+  std::string_view systems;
+};
+constexpr std::array civil_signals{
+    CivilSignal{'A', '1', 'C', "GRJS"}, CivilSignal{'B', '1', 'X', "GJ"},
+    CivilSignal{'C', '2', 'X', "GJ"}, CivilSignal{'D', '2', 'C', "R"}};
+
 // Converts RINEX 2's two letters to RINEX 3's three, for a system. The phase goes with the civil
 // code on the first carrier and with P(Y) on the second, because version 2 does not state which
 // code tracked it.
 ObservationType type_of_version2(System system, char kind, char band) {
+  for (const CivilSignal& civil : civil_signals) {
+    if (band != civil.letter) continue;
+    if (civil.systems.find(letter(system)) == std::string_view::npos) return {};
+    return {kind, civil.band, civil.attribute};
+  }
   ObservationType type{kind == 'P' ? 'C' : kind, band, 'C'};
   const bool precise = kind == 'P' || (kind != 'C' && band == '2');
   switch (system) {
@@ -74,7 +88,7 @@ void read_types2(Lines& lines, ObservationHeader& header) {
                  std::to_string(count));
     }
     const auto name = trimmed(lines.column(6 + 6 * static_cast<std::size_t>(i % 9), 6));
-    if (name.size() != 2 || std::string_view("CPLDST").find(name[0]) == std::string_view::npos) {
+    if (name.size() != 2) {
       lines.fail("'" + std::string(name) + "' is not an observation type");
     }
     for (std::size_t s = 0; s < header.types.size(); ++s) {
@@ -101,13 +115,15 @@ void read_types3(Lines& lines, ObservationHeader& header) {
                  std::to_string(count));
     }
     const auto name = lines.column(7 + 4 * static_cast<std::size_t>(i % 13), 3);
-    if (name.size() != 3 || std::string_view("CLDSXI").find(name[0]) == std::string_view::npos) {
+    if (blank(name) || name.size() != 3) {
       lines.fail("'" + std::string(name) + "' is not an observation type");
     }
     ObservationType type{name[0], name[1], name[2]};
-    // RINEX 3.02 called BeiDou's B1I band 1.
-    if (system == System::beidou && type.band == '1' && header.version < 3.03 &&
-        (type.attribute == 'I' || type.attribute == 'Q' || type.attribute == 'X')) {
+    // RINEX 3.02 called BeiDou's B1I band 1, and some writers still do: later versions have no 1I
+    // and 1Q, but another signal is 1X there.
+    if (system == System::beidou && type.band == '1' &&
+        (type.attribute == 'I' || type.attribute == 'Q' ||
+         (type.attribute == 'X' && header.version < 3.03))) {
       type.band = '2';
     }
     types.push_back(type);
@@ -149,10 +165,20 @@ void read_glonass_channels(const Lines& lines, ObservationHeader& header) {
   }
 }
 
+// No position needs these stamps, so that one that cannot be read is taken as not given.
+std::optional<GpsTime> stamp_of_header(const Lines& lines) {
+  try {
+    return parse_stamp(lines, lines.column(0, 43));
+  } catch (const ReadError&) {
+    return {};
+  }
+}
+
 Duration offset_of_time_system(const Lines& lines, const ObservationHeader& header, char type) {
   const auto name = trimmed(lines.column(48, 3));
   if (name == "GLO" || (name.empty() && type == 'R')) {
-    return leap_seconds(header.first.value_or(GpsTime{})).gps_minus_utc;
+    if (!header.first) lines.fail("no valid date, which determines GLONASS's leap seconds");
+    return leap_seconds(*header.first).gps_minus_utc;
   }
   if (name == "BDT" || (name.empty() && type == 'C')) return std::chrono::seconds(14);
   if (!name.empty() && name != "GPS" && name != "GAL" && name != "QZS" && name != "IRN") {
@@ -198,7 +224,7 @@ void apply_header_record(Lines& lines, HeaderInForce& in_force) {
                                 lines.number_or(28, 14, 0, "offset"),
                                 lines.number_or(0, 14, 0, "offset")};
   } else if (name == "INTERVAL") {
-    header.interval = lines.number(0, 10, "interval");
+    header.interval = parse_number(lines.column(0, 10)).value_or(0.0);
   } else if (name == "GLONASS SLOT / FRQ #") {
     read_glonass_channels(lines, header);
   }
@@ -236,10 +262,10 @@ HeaderInForce read_observation_header(Lines& lines) {
       return in_force;
     }
     if (name == "TIME OF FIRST OBS") {
-      header.first = parse_stamp(lines, lines.column(0, 43));
+      header.first = stamp_of_header(lines);
       in_force.to_gps = offset_of_time_system(lines, header, type);
     } else if (name == "TIME OF LAST OBS") {
-      header.last = parse_stamp(lines, lines.column(0, 43));
+      header.last = stamp_of_header(lines);
     } else {
       apply_header_record(lines, in_force);
     }

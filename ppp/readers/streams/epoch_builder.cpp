@@ -49,11 +49,12 @@ void append_satellite(Observations& observations, const Lines& lines, Satellite 
     Signal& signal = epoch.signals[first + static_cast<std::size_t>(type.signal)];
     signal.band = type.band;
     signal.attribute = type.attribute;
+    if (values[i].value == 0.0) continue;  // another column may have this signal, too
     const double value = values[i].value / type.factor;
     if (type.kind == 'C') {
       // No navigation satellite is nearer than 15000 km or farther than 80000 km, apart from the
       // clocks.
-      if (value != 0.0 && !(value > 1.0e7 && value < 1.0e8)) {
+      if (!(value > 1.0e7 && value < 1.0e8)) {
         refuse(observations, lines,
                to_string(satellite) + ": " + shown(value) +
                    " m is not a pseudorange (10000 to 100000 km)");
