@@ -5,6 +5,15 @@
 
 namespace maploop::ppp {
 
+namespace {
+
+// Returns whether a text is ZIP or the output of Unix's compress.
+bool is_archive(std::string_view text) {
+  return text.starts_with("PK\3\4") || text.starts_with("\x1f\x9d");
+}
+
+}  // namespace
+
 FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& files) {
   const FileKind kind = file_kind(text);
   NavigationFile sent;  // ephemerides recorded with a receiver's observations
@@ -50,6 +59,9 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
       files.attitudes.push_back(parse_orbex(text, name));
       break;
     case FileKind::unknown:
+      if (is_archive(text)) {
+        throw ReadError(name + ": is compressed as .zip or .Z, which is not read: unpack it");
+      }
       throw ReadError(
           name + (text.empty() ? ": is empty" : "") +
           ": not in a known format; supported are RINEX observations, navigation and clocks, "

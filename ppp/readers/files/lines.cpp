@@ -28,7 +28,7 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 std::string read_head(const std::filesystem::path& path) {
-  return or_read_error([&] { return maploop::read_head(path, 4096); });
+  return or_read_error([&] { return maploop::read_head(path, 65536); });
 }
 
 std::optional<double> parse_number(std::string_view text) {

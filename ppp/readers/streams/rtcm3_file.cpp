@@ -24,7 +24,7 @@ std::optional<Eigen::Vector3d> position_of(const Rtcm3Message& message) {
 }  // namespace
 
 bool is_rtcm3(std::string_view bytes) {
-  constexpr std::size_t far_enough = 8192;
+  constexpr std::size_t far_enough = 65536;  // behind the text of a receiver's start
   Rtcm3Message message;
   return Rtcm3Frames(bytes.substr(0, far_enough)).next(message);
 }

@@ -142,7 +142,7 @@ bool RawxDecoder::decode(const UbxFrame& frame, Epoch& epoch, std::string& probl
 }
 
 bool is_ubx(std::string_view bytes) {
-  constexpr std::size_t far_enough = 8192;
+  constexpr std::size_t far_enough = 65536;  // behind the text of a receiver's start
   UbxFrame frame;
   return UbxFrames(bytes.substr(0, far_enough)).next(frame);
 }

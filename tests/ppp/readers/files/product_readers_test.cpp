@@ -198,6 +198,18 @@ TEST(ProductReaders, DifferentialBiasesAsCodePublishesThem) {
   EXPECT_EQ(b.skipped, 1);
 }
 
+TEST(ProductReaders, OtherCompressionsThanGzipAreNamed) {
+  for (const std::string start : {"PK\3\4....", "\x1f\x9d\x90...."}) {
+    GnssFiles files;
+    try {
+      parse_into(start, "a.zip", files);
+      FAIL();
+    } catch (const ReadError& error) {
+      EXPECT_NE(std::string(error.what()).find("unpack it"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(ProductReaders, EarthRotationVersion2) {
   const std::string text =
       "VERSION 2\n EOP  SOLUTION\n"

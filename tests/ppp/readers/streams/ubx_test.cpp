@@ -56,6 +56,17 @@ std::string rawx(double tow, const std::vector<Measurement>& measurements) {
   return ubx_frame(0x02, 0x15, payload);
 }
 
+TEST(Ubx, ALogMayBeginWithTheTextOfTheReceiversStart) {
+  std::string text;
+  while (text.size() < 12000) text += "$GNTXT,01,01,02,u-blox AG - www.u-blox.com*4E\r\n";
+  EXPECT_EQ(file_kind(text), FileKind::unknown);
+  text += rawx(100.0, {{0, 5, 0, 2e7}});
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "start.ubx";
+  std::ofstream(file, std::ios::binary) << text;
+  EXPECT_EQ(kind_of_file(file), FileKind::ubx);
+}
+
 TEST(Ubx, ReadsARecordingOfAnF9T) {
   MAPLOOP_REQUIRE_REAL_DATA();
   GnssFiles files;
