@@ -18,6 +18,10 @@ int gnss_info(const std::vector<std::filesystem::path>& files) {
   ppp::GnssFiles all;
   for (const auto& file : files) {
     try {
+      if (is_regular_file(file) && file_size(file) == 0) {
+        std::cout << file.string() << ": empty\n";
+        continue;
+      }
       ppp::GnssFiles one;
       std::cout << gnss::info(file, one);
       append(all, std::move(one));
