@@ -19,6 +19,8 @@
 #include "tools/command/progress.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/text_lines.h"
+#include "tools/ppp/chosen_times.h"
+#include "tools/ppp/epoch_messages.h"
 #include "tools/ppp/page.h"
 #include "tools/ppp/run.h"
 #include "tools/ppp/summary.h"
@@ -39,23 +41,6 @@ struct PppOptions {
   std::vector<std::filesystem::path> compared;
   std::filesystem::path map, config, pos, nmea, geojson, kml, residuals, html, json, heights;
 };
-
-// "2020-06-25 01:00:00" of GPS time, or "01:00:00" of the first epoch's day, or seconds since then.
-ppp::GpsTime moment(const std::string& text, const std::string& option, ppp::GpsTime first) {
-  if (const auto seconds = evaluation::number_of<double>(text))
-    return first + from_seconds(*seconds);
-  const std::string whole =
-      text.find('-') == std::string::npos ? format_gps_time(first).substr(0, 11) + text : text;
-  try {
-    // GPS time's calendar has no leap seconds, as the parser's.
-    return ppp::GpsTime(parse_time(whole) - Time(ppp::gps_epoch_day));
-  } catch (const std::invalid_argument&) {
-    throw std::runtime_error(
-        option + ": '" + text +
-        "' is neither YYYY-MM-DD HH:MM:SS nor HH:MM:SS of GPS time, nor seconds "
-        "since the first epoch");
-  }
-}
 
 // What the command line does not say is the configuration's.
 vehicle::VehicleConfig config_of(const PppOptions& options) {
@@ -95,8 +80,9 @@ gnss::RunOptions run_options(const PppOptions& options, const vehicle::PppConfig
     throw std::runtime_error(
         "with a map the filter runs forward only: leave out --direction, or --map and [map] file");
   }
-  if (!options.start.empty()) run.start = moment(options.start, "--start", first);
-  if (!options.end.empty()) run.end = moment(options.end, "--end", first);
+  if (!options.start.empty()) run.start = gnss::beginning(options.start, "--start", first, last);
+  if (!options.end.empty())
+    run.end = gnss::ending(options.end, "--end", first, run.start.value_or(first), last);
   if (options.gnss_outage.empty()) return run;
   constexpr std::int64_t seed = 1;
   for (const auto& o :
@@ -130,14 +116,16 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
     if (on_map) r.without_map = std::make_unique<gnss::Score>(*r.truth, integrity_risk);
   }
   if (!options.score_start.empty())
-    r.scored_from = moment(options.score_start, "--score-start", first);
+    r.scored_from = gnss::beginning(options.score_start, "--score-start", first,
+                                    run.setup().observations().epochs.back().time);
   if (on_map && r.truth)
     r.comparison = std::make_unique<gnss::MapComparison>(*r.truth, r.scored_from);
+  gnss::EpochMessages messages;
   Progress progress("epochs");
   const auto epochs = static_cast<double>(run.epoch_count());
   run.process([&](const ppp::PppSolution& s) {
     progress.at(static_cast<double>(r.solutions.size()), epochs);
-    if (!s.message.empty()) std::cerr << format_gps_time(s.time) << ": " << s.message << '\n';
+    if (!s.message.empty()) messages.add(s);
     r.solved += s.status != PppStatus::none;
     if (r.score) r.score->add(s);
     if (r.without_map) r.without_map->add(run.filter().map_free());
@@ -147,6 +135,7 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
     r.matched += run.map_step().way_id.has_value();
     r.solutions.push_back(s);
   });
+  messages.write(std::cerr);
   if (r.solutions.empty()) {
     throw std::runtime_error(
         "no epoch is left between --start and --end, and outside --gnss-outage");
@@ -185,7 +174,11 @@ void write_files(const PppOptions& options, const gnss::PppRun& run, const gnss:
 // Reads a file, or those files of a folder whose kind is known.
 void read(const std::filesystem::path& path, ppp::GnssFiles& files) {
   if (!std::filesystem::is_directory(path)) {
-    ppp::read_into(path, files);
+    if (file_size(path) == 0) {
+      std::cerr << "maploop: " << path.string() << ": is empty, and is passed over\n";
+    } else {
+      ppp::read_into(path, files);
+    }
     return;
   }
   bool any = false;
