@@ -11,19 +11,26 @@ namespace {
 constexpr double max_step = 1e6;        // ms; a larger change is not a step of a clock
 constexpr double largest_noise = 1e-3;  // ms, 300 m: codes and motion change by less
 
+void add_to_phases(std::vector<Measurement>& measurements, std::int64_t milliseconds) {
+  if (milliseconds == 0) return;
+  for (Measurement& m : measurements) {
+    for (Carrier* c : {&m.first, &m.second}) {
+      if (c->phase != 0.0) c->phase += static_cast<double>(milliseconds) * millisecond_range;
+    }
+  }
+}
+
 }  // namespace
 
-// Returns the step of the codes against the phases, in ms; zero unless two thirds of the satellites
-// agree.
-int ClockSteps::step_of_all(const std::vector<Measurement>& measurements) {
+// Returns the step of the codes against the phases since each satellite was last seen, in ms; zero
+// unless two satellites or more have one, and two thirds of them agree.
+int ClockSteps::new_step(const std::vector<Measurement>& measurements) {
   votes_.clear();
   for (const Measurement& m : measurements) {
-    if (m.first.phase == 0.0) continue;
-    const double now = m.first.code - m.first.phase;
-    auto& before = code_minus_phase_[m.satellite.slot()];
-    const double step = (now - before.value_or(now)) / millisecond_range;
-    if (before && std::abs(step) < max_step) votes_.push_back(step);
-    before = now;
+    const auto& before = code_minus_phase_[m.satellite.slot()];
+    if (m.first.phase == 0.0 || !before) continue;
+    const double step = (m.first.code - m.first.phase - *before) / millisecond_range;
+    if (std::abs(step) < max_step) votes_.push_back(step);
   }
   if (votes_.size() < 2) return 0;
   const double whole = std::round(median(votes_));
@@ -34,12 +41,17 @@ int ClockSteps::step_of_all(const std::vector<Measurement>& measurements) {
 }
 
 void ClockSteps::repair(std::vector<Measurement>& measurements) {
-  steps_ += step_of_all(measurements);
-  if (steps_ == 0) return;
+  add_to_phases(measurements, steps_);
+  const int step = new_step(measurements);
+  add_to_phases(measurements, step);
+  steps_ += step;
   for (Measurement& m : measurements) {
-    for (Carrier* c : {&m.first, &m.second}) {
-      if (c->phase != 0.0) c->phase += static_cast<double>(steps_) * millisecond_range;
-    }
+    if (m.first.phase == 0.0) continue;
+    const double now = m.first.code - m.first.phase;
+    auto& before = code_minus_phase_[m.satellite.slot()];
+    if (before && std::abs(now - *before) > largest_noise * millisecond_range)
+      m.first.lost_lock = true;
+    before = now;
   }
 }
 

@@ -18,7 +18,9 @@ class ClockSteps {
  public:
   ClockSteps() : code_minus_phase_(satellite_slots) {}
 
-  // Takes the measurements of the next epoch and adds all steps so far to their phases.
+  // Takes the measurements of the next epoch and adds all steps so far to their phases. A satellite
+  // whose code and phase have come apart otherwise has lost lock: its phase has begun anew, or has
+  // missed a step that too few satellites told.
   void repair(std::vector<Measurement>& measurements);
 
   template <class Archive>
@@ -31,9 +33,11 @@ class ClockSteps {
   }
 
  private:
-  int step_of_all(const std::vector<Measurement>& measurements);
+  int new_step(const std::vector<Measurement>& measurements);
 
-  // The values are in m, for the first carrier at the satellite's last epoch, by slot.
+  // The values are in m, for the first carrier at the satellite's last epoch, by slot. The phases
+  // contain the steps until then, so that a satellite that has missed a step does not tell it
+  // again.
   std::vector<std::optional<double>> code_minus_phase_;
   std::vector<double> votes_;  // a member only to reuse its memory
   std::int64_t steps_ = 0;     // ms

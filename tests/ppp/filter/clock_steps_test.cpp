@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace maploop::ppp {
 namespace {
@@ -57,6 +59,51 @@ TEST(ClockSteps, NothingElseIsTouched) {
       EXPECT_EQ(found[i].second.phase, before[i].second.phase) << t;
     }
   }
+}
+
+std::vector<Measurement> only(std::vector<Measurement> all, std::initializer_list<int> numbers) {
+  std::erase_if(all, [&](const Measurement& m) {
+    return std::find(numbers.begin(), numbers.end(), m.satellite.number) == numbers.end();
+  });
+  return all;
+}
+
+// Between houses satellites come and go. Those that were away when the codes stepped must not tell
+// the same step once more.
+TEST(ClockSteps, ASatelliteThatWasAwayDoesNotTellTheStepAgain) {
+  ClockSteps steps;
+  auto before = epoch(0, 0.0, 0.0);
+  steps.repair(before);
+  auto at_the_step = only(epoch(1, -millisecond_range, 0.0), {1, 2, 3, 4});
+  steps.repair(at_the_step);
+  for (int t = 2; t < 6; ++t) {
+    // Only such satellites are there.
+    auto found = only(epoch(t, -millisecond_range, 0.0), {5, 6, 7, 8});
+    const auto as_if_both = only(epoch(t, -millisecond_range, -millisecond_range), {5, 6, 7, 8});
+    steps.repair(found);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i].first.phase, as_if_both[i].first.phase, 1e-6) << t;
+      EXPECT_FALSE(found[i].first.lost_lock) << t;
+    }
+  }
+}
+
+TEST(ClockSteps, AStepThatOnlyOneSatelliteTellsIsALossOfItsLock) {
+  ClockSteps steps;
+  auto before = epoch(0, 0.0, 0.0);
+  steps.repair(before);
+  auto alone = only(epoch(1, millisecond_range, 0.0), {1});
+  steps.repair(alone);
+  EXPECT_TRUE(alone[0].first.lost_lock);
+  auto all = epoch(2, millisecond_range, 0.0);  // seven tell the step, which the first has told
+  steps.repair(all);
+  for (const Measurement& m : all) {
+    EXPECT_EQ(m.first.lost_lock, m.satellite.number == 1);
+    EXPECT_NEAR(m.first.code - m.first.phase, 0.0, 100.0);
+  }
+  auto after = epoch(3, millisecond_range, 0.0);
+  steps.repair(after);
+  for (const Measurement& m : after) EXPECT_FALSE(m.first.lost_lock);
 }
 
 }  // namespace
