@@ -113,10 +113,12 @@ void RobustUpdate::distrust_phases(FilterState& state, std::vector<Row>& rows) {
     row.variance += doubtful_variance_;
   }
   reapply(state, rows);
-  for (const Row& row : rows) {
+  for (Row& row : rows) {
     if (!row.doubtful) continue;
     const int ambiguity = row.indices[static_cast<std::size_t>(row.count) - 1];
     const double misfit = row.residual_after(dx_);
+    row.doubtful = std::abs(misfit) <= ambiguity_sigma_;
+    if (!row.doubtful) continue;
     state.P()(ambiguity, ambiguity) += misfit * misfit;
   }
 }

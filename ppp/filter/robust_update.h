@@ -14,6 +14,7 @@ class RobustUpdate {
       : late_freedom_(parameters.late_code_freedom),
         max_rejections_(parameters.outlier_rejections),
         doubtful_variance_(parameters.doubtful_phase_sigma * parameters.doubtful_phase_sigma),
+        ambiguity_sigma_(parameters.ambiguity_sigma),
         dx_(FilterState::capacity) {}
 
   // Codes that are too long lose weight by their residual, as if that half of their errors had
@@ -33,7 +34,8 @@ class RobustUpdate {
   //
   // With four or fewer fitting phases, any other four might fit equally well: every phase then gets
   // additional noise for this epoch (`doubtful_phase_sigma`), and the misfits are marked as
-  // doubtful, so that their ambiguities are kept, with the variance of the misfit added.
+  // doubtful, so that their ambiguities are kept, with the variance of the misfit added. One whose
+  // misfit exceeds `ambiguity_sigma` would then be known worse than a new one, and is not kept.
   void apply(FilterState& state, std::vector<Row>& rows);
 
   // Returns the correction in the units of the state; valid until the next update.
@@ -51,6 +53,7 @@ class RobustUpdate {
   double late_freedom_;
   int max_rejections_;
   double doubtful_variance_;  // m^2
+  double ambiguity_sigma_;    // m
   FilterState before_;
   std::vector<double> variance_factors_;  // factor on each row's variance
   Eigen::VectorXd dx_;
