@@ -87,7 +87,6 @@ void RawxDecoder::add(const Key& key, std::string_view m, Epoch& epoch) {
 }
 
 bool RawxDecoder::decode(const UbxFrame& frame, Epoch& epoch, std::string& problem) {
-  constexpr unsigned clock_reset = 2;
   constexpr int last_week = 10'000;  // in the year 2171
   problem.clear();
   if (frame.message_class != 0x02 || frame.id != 0x15) return false;
@@ -105,7 +104,7 @@ bool RawxDecoder::decode(const UbxFrame& frame, Epoch& epoch, std::string& probl
   }
   epoch.clear();
   epoch.time = gps_week_time(week, tow);
-  epoch.power_failure = (ubx_number<std::uint8_t>(payload, 12) & clock_reset) != 0;
+  // A clock reset is no loss of lock: the receiver applies it to codes and phases alike.
   // The signals of a satellite are not next to each other.
   std::vector<std::pair<Key, std::string_view>> measurements;
   for (std::size_t i = 0; i < count; ++i) {
