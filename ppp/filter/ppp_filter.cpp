@@ -167,11 +167,11 @@ bool PppFilter::update(const std::vector<Tracked>& tracked) {
   std::vector<Row>& rows = rows_.make(tracked, clocks_.reference_system(), unobstructed_cn0_,
                                       state_, solution_.satellites);
   if (rows.size() < position_unknowns) {
-    solution_.message = "fewer than four measurements";
-    return true;
+    if (solution_.message.empty()) solution_.message = "fewer than four measurements";
+  } else {
+    update_.apply(state_, rows);
+    report_rows(rows, update_.dx(), tracked, state_, levels_, solution_.satellites);
   }
-  update_.apply(state_, rows);
-  report_rows(rows, update_.dx(), tracked, state_, levels_, solution_.satellites);
   return !disagree(rows, update_.dx(), tracked, parameters_);
 }
 

@@ -1,5 +1,7 @@
 #include "ppp/filter/row_report.h"
 
+#include <algorithm>
+
 namespace maploop::ppp {
 
 void report_rows(const std::vector<Row>& rows, const Eigen::VectorXd& dx,
@@ -47,9 +49,10 @@ bool disagree(const std::vector<Row>& rows, const Eigen::VectorXd& dx,
     sum += residual * residual / (row.sigma * row.sigma);
     ++codes;
   }
-  for (const Tracked& t : tracked) left_out += !t.code_good;
-  return codes >= position_unknowns &&
-         (sum > parameters.restart_variance * codes || 2 * left_out > codes);
+  const auto far = static_cast<int>(
+      std::ranges::count_if(tracked, [](const Tracked& t) { return !t.code_good; }));
+  if (codes < position_unknowns) return far > position_unknowns;
+  return sum > parameters.restart_variance * codes || 2 * (left_out + far) > codes;
 }
 
 }  // namespace maploop::ppp

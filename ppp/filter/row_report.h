@@ -15,6 +15,7 @@ void report_rows(const std::vector<Row>& rows, const Eigen::VectorXd& dx,
                  std::vector<SatelliteReport>& reports);
 
 // Returns whether the codes are far from the position, or more than half their number is left out.
+// If fewer than four are near it, four cannot tell which of them are wrong, but five far ones can.
 bool disagree(const std::vector<Row>& rows, const Eigen::VectorXd& dx,
               const std::vector<Tracked>& tracked, const PppParameters& parameters);
 
