@@ -166,6 +166,10 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Standard deviation of the first position, which comes from the code."},
       {"velocity_sigma", &P::velocity_sigma, smallest, 1e4, "m/s", expert,
        "Standard deviation per axis of the first velocity of a moving receiver."},
+      {"lost_position_sigma", &P::lost_position_sigma, smallest, any_gate, "m", expert,
+       "Standard deviation of the predicted position beyond which it begins anew with the codes."},
+      {"bridged_sigma", &P::bridged_sigma, 0.0, any_sigma, "m", expert,
+       "Horizontal standard deviation up to which the positions of `maploop ppp` are bridged."},
       {"model_sigma", &P::model_sigma, 0.0, 100.0, "m", expert,
        "Standard deviation per axis of the errors of antennas, tides and frames that are common to "
        "all satellites, which no residual shows. It is added to the reported covariance."},
@@ -187,6 +191,8 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "is wrong for all codes."},
       {"longest_gap", &P::longest_gap, 0, 1e6, "epochs", expert,
        "Epochs for which a satellite may be missing and keep its ambiguity."},
+      {"longest_pause", &P::longest_pause, 0.0, long_time, "s", expert,
+       "Time for which all epochs may be missing, likewise; with one carrier, a minute at most."},
       {"restart_epochs", &P::restart_epochs, 1, 1e6, "epochs", expert,
        "Epochs in a row in which measurements disagree with the position until the filter "
        "restarts.",

@@ -88,6 +88,8 @@ struct PppParameters {
   double drift_sigma = 100.0;                // m/s
   double position_sigma = 60.0;              // m
   double velocity_sigma = 10.0;              // m/s
+  double lost_position_sigma = 500.0;        // m, beyond which the position begins anew
+  double bridged_sigma = 30.0;               // m, horizontally, up to which positions are bridged
   double model_sigma = 0.01;                 // m
   double outlier_sigmas = 3.0;               // post-fit residual beyond which there is an outlier
   double obstructed_outlier_sigmas = 2.0;    // the same of obstructed phases and Dopplers
@@ -96,6 +98,7 @@ struct PppParameters {
   double code_gate = 30.0;                   // m
   double code_gate_sigmas = 4.0;             // of the position, by which code_gate is wider
   int longest_gap = 10;           // epochs that a satellite may miss and keep its ambiguity
+  double longest_pause = 600.0;   // s, that all epochs may be missing, likewise
   int restart_epochs = 10;        // epochs in a row that disagree until the filter restarts
   double restart_variance = 9.0;  // mean square of normalized code residuals that disagrees
 

@@ -73,6 +73,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch, const CarriedMotion* c
   if (carried != nullptr && !fits(*carried, interval)) carried = nullptr;
   if (interval != 0.0) predict(interval, carried);
   time_ = epoch.time;
+  const bool located = !is_lost() || locate(measured_);
   use_height();
   model_.begin(time_, state_.x().segment<3>(S::position));
   std::vector<Tracked>& tracked =
@@ -80,6 +81,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch, const CarriedMotion* c
   clocks_.set(tracked, parameters_, state_, reports);
   set_zenith_ionosphere(tracked);
   learn_strengths(tracked);
+  if (!located) tracked.clear();  // about a lost position their equations are not linear
   const bool agrees = update(tracked);
   levels_.end_epoch(interval != 0.0 ? std::abs(interval) : first_interval,
                     parameters_.code_level_time);
@@ -113,6 +115,28 @@ bool PppFilter::start(const std::vector<Measurement>& measured, GpsTime t) {
   levels_.begin(point.residual_level);
   started_ = true;
   started_at_ = t;
+  return true;
+}
+
+// After a gap the position may be wrong by kilometres, about which no row is linear.
+bool PppFilter::is_lost() const {
+  const double sigma = parameters_.lost_position_sigma;
+  return state_.P().block<3, 3>(S::position, S::position).trace() > sigma * sigma;
+}
+
+// Begins a lost position anew with the codes. All that does not depend on the place stays: clocks,
+// delays, the errors of orbits, and the ambiguities of satellites that have been tracked since.
+bool PppFilter::locate(const std::vector<Measurement>& measured) {
+  const SinglePoint point =
+      solve_single_point(measured, time_, state_.x().segment<3>(S::position), parameters_, model_);
+  if (!point.failure.empty()) {
+    solution_.message = "the position is lost, and there is none by code: " + point.failure;
+    return false;
+  }
+  begin_position(state_, point.position, parameters_);
+  started_at_ = time_;
+  grown_.reset();
+  solution_.carried.reset();
   return true;
 }
 

@@ -61,7 +61,7 @@ class PppFilter {
   // parameters, and the filter then stays as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 15);
+    ar.section("ppp", 16);
     archive_same_parameters(ar, parameters_);
     archive_same_parameters(ar, parameters_.ground);
     if constexpr (Archive::loading) {
@@ -83,6 +83,8 @@ class PppFilter {
 
   void begin_solution(GpsTime t);
   bool start(const std::vector<Measurement>& measured, GpsTime t);
+  bool is_lost() const;
+  bool locate(const std::vector<Measurement>& measured);
   void predict(double interval, const CarriedMotion* carried);
   void use_height();
   void learn_strengths(const std::vector<Tracked>& tracked);

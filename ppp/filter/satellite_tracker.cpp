@@ -10,6 +10,8 @@ namespace {
 
 using S = FilterState;
 
+constexpr double longest_single = 60.0;  // s, in place of `longest_pause` with one carrier
+
 // Each code after a satellite's first has only (1 - r) / (1 + r) of the full weight: its error is a
 // first-order Gauss-Markov process with the correlation r since the previous code, `since` s ago.
 void weigh_later_errors(Tracked& tracked, double since, double speed,
@@ -70,7 +72,7 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
   phase_steps_.clear();
   tracked_.reserve(usual_satellites);
   phase_steps_.reserve(usual_satellites);
-  for (Memory& memory : memory_) ++memory.epochs_away;
+  pass(interval, parameters);
   for (const Measurement& m : measured) {
     SatelliteReport& report = reports[m.report];
     Memory& memory = memory_[m.satellite.slot()];
@@ -125,6 +127,16 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
     state.remove_ambiguities(m.satellite);
   }
   return tracked_;
+}
+
+// All epochs may have been missing. A receiver that has gone on meanwhile states a loss of lock,
+// but not all do, and over a long pause nothing else tells the slips of one carrier.
+void SatelliteTracker::pass(double interval, const PppParameters& parameters) {
+  const double pause = std::abs(interval), longest = parameters.longest_pause;
+  for (Memory& memory : memory_) {
+    const bool too_long = pause > (memory.dual ? longest : std::min(longest, longest_single));
+    memory.epochs_away = too_long ? for_long : memory.epochs_away + 1;
+  }
 }
 
 // Where the model's delay comes from another source than before, the satellite's own delay takes up

@@ -55,7 +55,8 @@ class SatelliteTracker {
   }
 
  private:
-  struct Memory {  // one satellite's
+  static constexpr int for_long = 1'000'000;  // epochs, more than any `longest_gap`
+  struct Memory {                             // one satellite's
     SlipDetector slips;
     bool dual = false;  // the phase was that of two carriers
     double wind_up = 0.0;
@@ -76,6 +77,7 @@ class SatelliteTracker {
   static void bridge_ionosphere(const Tracked& tracked, Memory& memory, FilterState& state);
   PppSlip look_for_slip(const Tracked& tracked, double interval, const PppParameters& parameters,
                         FilterState& state);
+  void pass(double interval, const PppParameters& parameters);
 
   std::vector<Memory> memory_;
   std::vector<Tracked> tracked_;  // both are members only to reuse their memory

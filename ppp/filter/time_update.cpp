@@ -50,14 +50,18 @@ void move(FilterState& state, double t, const PppParameters& parameters) {
 
 }  // namespace
 
+void begin_position(FilterState& state, const Eigen::Vector3d& position,
+                    const PppParameters& parameters) {
+  for (int i = 0; i < 3; ++i) state.set(S::position + i, position[i], parameters.position_sigma);
+}
+
 void begin_state(FilterState& state, const Eigen::Vector3d& position,
                  const PppParameters& parameters) {
   const bool moves = parameters.motion == Motion::kinematic;
   state.clear();
-  for (int i = 0; i < 3; ++i) {
-    state.set(S::position + i, position[i], parameters.position_sigma);
+  begin_position(state, position, parameters);
+  for (int i = 0; i < 3; ++i)
     state.set(S::velocity + i, 0.0, moves ? parameters.velocity_sigma : 0.0);
-  }
   state.set(S::zenith_wet, 0.0, parameters.zenith_wet_sigma);
   if (parameters.gradients) {
     state.set(S::gradient_north, 0.0, parameters.gradient_sigma);

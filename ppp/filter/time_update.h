@@ -12,6 +12,10 @@ namespace maploop::ppp {
 void begin_state(FilterState& state, const Eigen::Vector3d& position,
                  const PppParameters& parameters);
 
+// Sets the position alone anew, uncorrelated with all else, which stays.
+void begin_position(FilterState& state, const Eigen::Vector3d& position,
+                    const PppParameters& parameters);
+
 // Predicts over `interval` s, which are negative backward in time. A kinematic receiver moves as
 // `carried` says; if that is nullptr, with constant velocity under white acceleration. Delays,
 // clock offsets and ambiguities are random walks. The errors of orbits are predicted where their
