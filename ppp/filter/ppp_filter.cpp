@@ -76,6 +76,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch, const CarriedMotion* c
   const bool located = !is_lost() || locate(measured_);
   use_height();
   model_.begin(time_, state_.x().segment<3>(S::position));
+  if (epoch.power_failure) satellites_.lose_lock();
   std::vector<Tracked>& tracked =
       satellites_.track(measured_, time_, interval, model_, levels_, parameters_, state_, reports);
   clocks_.set(tracked, parameters_, state_, reports);

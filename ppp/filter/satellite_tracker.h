@@ -34,6 +34,11 @@ class SatelliteTracker {
   SatelliteTracker() : memory_(satellite_slots) {}
   void reset() { memory_.assign(satellite_slots, {}); }
 
+  // The receiver has lost all phases, also those of satellites that are not measured now.
+  void lose_lock() {
+    for (Memory& memory : memory_) memory.epochs_away = for_long;
+  }
+
   // Returns the satellites that have an orbit and are above the mask; they are valid until the next
   // call. The model has begun at time `t`, `interval` s after the last epoch (0 at the first, and
   // negative backward in time). Ambiguities of slipped phases are removed from the state.
