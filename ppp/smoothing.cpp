@@ -27,12 +27,13 @@ std::vector<Epoch> reversed(const std::vector<Epoch>& epochs) {
 }
 
 PppSolution combined(const PppSolution& forward, const PppSolution& backward) {
-  if (backward.status == PppStatus::none) return forward;
-  if (forward.status == PppStatus::none) return backward;
+  if (!backward.has_position()) return forward;
+  if (!forward.has_position()) return backward;
   const double forward_trace = forward.covariance.trace();
   const double backward_trace = backward.covariance.trace();
   PppSolution both = forward_trace <= backward_trace ? forward : backward;
   both.status = std::max(forward.status, backward.status);
+  both.bridged = forward.bridged && backward.bridged;
   // (29) of METHOD.md
   const double share = backward_trace / (forward_trace + backward_trace);
   const auto intersect = [share](const auto& x, const auto& P, const auto& y, const auto& Q) {

@@ -87,7 +87,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch, const CarriedMotion* c
   levels_.end_epoch(interval != 0.0 ? std::abs(interval) : first_interval,
                     parameters_.code_level_time);
   satellites_.forget_absent(parameters_.longest_gap, state_);
-  report(tracked);
+  report(tracked, agrees);
 
   bad_epochs_ = agrees ? 0 : bad_epochs_ + 1;
   if (bad_epochs_ >= parameters_.restart_epochs) restart();
@@ -200,7 +200,7 @@ bool PppFilter::update(const std::vector<Tracked>& tracked) {
   return !disagree(rows, update_.dx(), tracked, parameters_);
 }
 
-void PppFilter::report(const std::vector<Tracked>& tracked) {
+void PppFilter::report(const std::vector<Tracked>& tracked, bool agrees) {
   const FilterState* const fixed = parameters_.integers
                                        ? integers_.resolve(state_, tracked, rows_.rows(), time_,
                                                            solution_.integers, solution_.satellites)
@@ -222,15 +222,17 @@ void PppFilter::report(const std::vector<Tracked>& tracked) {
   for (const SatelliteReport& s : solution_.satellites) {
     solution_.satellites_used += s.code_used || s.phase_used;
   }
+  const Eigen::Matrix3d& R = model_.R_enu_ecef();
+  const Eigen::Matrix3d enu = R * solution_.covariance * R.transpose();
+  const double horizontal_sigma = std::sqrt(enu(0, 0) + enu(1, 1));
   if (solution_.satellites_used < position_unknowns) {
     if (solution_.message.empty()) solution_.message = "fewer than four satellites";
+    solution_.bridged = agrees && horizontal_sigma < parameters_.bridged_sigma;
     return;
   }
   grown_ = Eigen::Matrix3d::Zero();
   if (fixed != nullptr) solution_.carried.reset();
-  const Eigen::Matrix3d& R = model_.R_enu_ecef();
-  const Eigen::Matrix3d enu = R * solution_.covariance * R.transpose();
-  const bool small = std::sqrt(enu(0, 0) + enu(1, 1)) < converged_sigma;
+  const bool small = horizontal_sigma < converged_sigma;
   solution_.status = !small                                                  ? PppStatus::converging
                      : solution_.integers.used >= parameters_.integer_fewest ? PppStatus::fixed
                                                                              : PppStatus::converged;

@@ -90,7 +90,7 @@ class PppFilter {
   void learn_strengths(const std::vector<Tracked>& tracked);
   void set_zenith_ionosphere(const std::vector<Tracked>& tracked);
   bool update(const std::vector<Tracked>& tracked);
-  void report(const std::vector<Tracked>& tracked);
+  void report(const std::vector<Tracked>& tracked, bool agrees);
   void restart();
 
   PppParameters parameters_;

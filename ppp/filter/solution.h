@@ -68,8 +68,11 @@ struct CarriedSolution {
 struct PppSolution {
   GpsTime time{};                      // of the epoch
   PppStatus status = PppStatus::none;  // none: there is no position
-  std::string message;                 // why there is no solution; "started again: ..."
-  Eigen::Vector3d position{0, 0, 0};   // m, of the marker, earth-fixed
+  // Fewer than four satellites were used, so that the status is none, but what they and the motion
+  // say is known well enough for the position, velocity and covariances to be reported.
+  bool bridged = false;
+  std::string message;                // why there is no solution; "started again: ..."
+  Eigen::Vector3d position{0, 0, 0};  // m, of the marker, earth-fixed
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();           // m^2, earth-fixed
   Eigen::Vector3d velocity{0, 0, 0};                              // m/s
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // m^2/s^2, earth-fixed
@@ -82,6 +85,9 @@ struct PppSolution {
   HeightUse height_use = HeightUse::not_asked;          // of the ground's height
   IntegerReport integers;                               // whether and why ambiguities are integers
   std::vector<SatelliteReport> satellites;              // all that were measured
+
+  // Returns whether there is a position, measured or bridged.
+  bool has_position() const { return status != PppStatus::none || bridged; }
 };
 
 }  // namespace maploop::ppp

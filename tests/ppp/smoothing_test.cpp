@@ -65,6 +65,18 @@ TEST(Smoothing, TheMoreAccurateSolutionCountsMore) {
   EXPECT_NEAR(equal.covariance(0, 0), 1.0, 1e-12) << "It claims no more than either.";
 }
 
+TEST(Smoothing, ABridgedPositionIsCombinedWithAMeasuredOne) {
+  auto forward = solution(PppStatus::none, 1.0, 100.0);
+  forward.bridged = true;
+  const auto measured = combined(forward, solution(PppStatus::converging, 0.0, 1.0));
+  EXPECT_EQ(measured.status, PppStatus::converging);
+  EXPECT_FALSE(measured.bridged);
+  EXPECT_NEAR(measured.position.x(), 0.0, 0.1);
+  const auto both = combined(forward, forward);
+  EXPECT_EQ(both.status, PppStatus::none);
+  EXPECT_TRUE(both.bridged);
+}
+
 TEST(Smoothing, ASolutionWithoutAPositionIsNotCombined) {
   const auto forward = solution(PppStatus::converging, 1.0, 1.0);
   EXPECT_EQ(combined(forward, {}).position, forward.position);

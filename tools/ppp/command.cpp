@@ -127,6 +127,7 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
     progress.at(static_cast<double>(r.solutions.size()), epochs);
     if (!s.message.empty()) messages.add(s);
     r.solved += s.status != PppStatus::none;
+    r.bridged += s.bridged;
     if (r.score) r.score->add(s);
     if (r.without_map) r.without_map->add(run.filter().map_free());
     if (r.comparison) r.comparison->add(s, run.filter().map_free());

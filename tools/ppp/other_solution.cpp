@@ -7,7 +7,7 @@ namespace maploop::gnss {
 using namespace maploop::ppp;
 
 void OtherSolution::add(const PppSolution& solution) {
-  if (solution.status != PppStatus::none) positions[solution.time] = solution.position;
+  if (solution.has_position()) positions[solution.time] = solution.position;
 }
 
 std::optional<Eigen::Vector3d> OtherSolution::at(GpsTime t) const {

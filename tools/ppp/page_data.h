@@ -18,7 +18,7 @@ struct EpochRow {
   double second = 0.0;                         // since the first
   const ppp::PppSolution* solution = nullptr;  // nullptr: missing
 
-  bool solved() const { return solution != nullptr && solution->status != PppStatus::none; }
+  bool solved() const { return solution != nullptr && solution->has_position(); }
 };
 std::vector<EpochRow> epoch_rows(const Solutions& solutions);
 

@@ -31,8 +31,9 @@ LocalSolution local(const PppSolution& s) {
   return {place, R * s.covariance * R.transpose(), R * s.velocity};
 }
 
-// RTKLIB's quality: 1 for integer ambiguities, 6 for PPP without.
+// RTKLIB's quality: 1 for integer ambiguities, 6 for PPP without, 7 for dead reckoning.
 int quality(const PppSolution& s) {
+  if (s.bridged) return 7;
   return s.status == PppStatus::fixed ? 1 : 6;
 }
 
@@ -58,7 +59,7 @@ std::pair<std::string, std::string> nmea_stamp(GpsTime t) {
 template <class F>
 void each_solved(const Solutions& solutions, F&& f) {
   for (const PppSolution& s : solutions) {
-    if (s.status != PppStatus::none) f(s, local(s));
+    if (s.has_position()) f(s, local(s));
   }
 }
 
@@ -67,7 +68,7 @@ void each_solved(const Solutions& solutions, F&& f) {
 std::string to_pos(const Solutions& solutions, bool ecef, const std::string& observations) {
   std::string text = "% program   : maploop ppp\n% inp file  : " + observations + "\n%\n";
   text += "% (" + std::string(ecef ? "x/y/z-ecef=WGS84" : "lat/lon/height=WGS84/ellipsoidal") +
-          ",Q=1:fix,2:float,3:sbas,4:dgps,5:single,6:ppp,ns=# of satellites)\n";
+          ",Q=1:fix,2:float,3:sbas,4:dgps,5:single,6:ppp,7:dr,ns=# of satellites)\n";
   text +=
       ecef ? "%  GPST                      x-ecef(m)      y-ecef(m)      z-ecef(m)   Q  ns   "
              "sdx(m)   "
@@ -103,14 +104,15 @@ std::string to_nmea(const Solutions& solutions) {
     const auto [clock, date] = nmea_stamp(s.time);
     const std::string place = nmea_angle_fields(l.place.latitude, 2, "NS") + ',' +
                               nmea_angle_fields(l.place.longitude, 3, "EW");
-    const int mode = s.status == PppStatus::fixed ? 4 : 5;  // integer, float
+    // Estimated, integer, float.
+    const int mode = s.bridged ? 6 : s.status == PppStatus::fixed ? 4 : 5;
     text += nmea_sentence(fmt::format("GNGGA,{},{},{},{:02},,{:.4f},M,,M,,", clock, place, mode,
                                       std::min(99, s.satellites_used), l.place.height));
     const double knots = l.velocity.head<2>().norm() / 0.514444;
     double course = degrees(std::atan2(l.velocity.x(), l.velocity.y()));
     if (course < 0.0) course += 360.0;
-    text += nmea_sentence(
-        fmt::format("GNRMC,{},A,{},{:.3f},{:.2f},{},,,F", clock, place, knots, course, date));
+    text += nmea_sentence(fmt::format("GNRMC,{},A,{},{:.3f},{:.2f},{},,,{}", clock, place, knots,
+                                      course, date, s.bridged ? 'E' : 'F'));
     const auto& P = l.covariance;
     const double half = 0.5 * (P(0, 0) + P(1, 1));
     const double spread = std::hypot(0.5 * (P(0, 0) - P(1, 1)), P(0, 1));

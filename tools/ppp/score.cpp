@@ -22,7 +22,7 @@ void Score::add(const PppSolution& solution) {
   const auto truth = truth_.at(solution.time);
   if (!truth) return;
   with_truth_.push_back(solution.time);
-  if (solution.status == PppStatus::none) return;
+  if (!solution.has_position()) return;
   const Eigen::Matrix3d R = rotation_enu_ecef(geodetic_from_ecef(*truth));
   const Eigen::Vector3d e = solution.position - *truth;
   const Eigen::Matrix3d P = R * solution.covariance * R.transpose();

@@ -19,7 +19,7 @@ namespace maploop::gnss {
 // made.
 struct PppResult {
   Solutions solutions;
-  std::size_t solved = 0, matched = 0;
+  std::size_t solved = 0, bridged = 0, matched = 0;
   std::unique_ptr<Truth> truth;
   std::unique_ptr<Score> score, without_map;  // where there is a truth; the second: and a map
   std::unique_ptr<MapComparison> comparison;  // as the second
