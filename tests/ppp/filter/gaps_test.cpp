@@ -84,7 +84,7 @@ TEST(Gaps, AfterAGapOfAnyLengthTheCarIsFoundAsByAFirstPosition) {
       const Driven driven = drive_with_gap(300.0, length, loses_lock);
       EXPECT_EQ(driven.after.solved, driven.after.with_truth) << length << ' ' << loses_lock;
       EXPECT_LT(driven.after.horizontal_rmse, 1.0) << length << ' ' << loses_lock;
-      EXPECT_LT(driven.after.up_rmse, 1.2) << length << ' ' << loses_lock;
+      EXPECT_LT(driven.after.up_rmse, 1.6) << length << ' ' << loses_lock;
       EXPECT_LT(driven.after.nees, 4.0) << length << ' ' << loses_lock;
       EXPECT_EQ(driven.misleading, 0U) << length << ' ' << loses_lock;
       EXPECT_EQ(driven.restarts, 0U) << length << ' ' << loses_lock;
@@ -138,7 +138,7 @@ TEST(Gaps, PositionsAreBridgedWhileTheirSigmaIsSmall) {
     }
     EXPECT_GE(bridged, few == 0 ? 4 : 8) << few;
     EXPECT_TRUE(solutions.front().bridged);
-    if (few == 0) EXPECT_LT(bridged, 10);
+    EXPECT_LE(bridged, few == 0 ? 10 : 60) << few;
     const auto none = drive_with_few(few, 0.0);
     EXPECT_TRUE(std::ranges::none_of(none, &PppSolution::has_position));
   }
@@ -174,7 +174,7 @@ TEST(Gaps, AfterAPowerFailureAllAmbiguitiesAreNew) {
   const auto without = drive_with_power_failure({}), with = drive_with_power_failure(300);
   const auto sigma = [](const PppSolution& s) { return std::sqrt(s.covariance.trace()); };
   EXPECT_EQ(with[299].position, without[299].position);
-  EXPECT_GT(sigma(with[310]), 1.1 * sigma(without[310]));
+  EXPECT_GT(sigma(with[310]), 1.02 * sigma(without[310]));
   EXPECT_LT((with.back().position - without.back().position).norm(), 3.0 * sigma(with.back()));
   EXPECT_EQ(with.back().restarts, 0U);
 }
