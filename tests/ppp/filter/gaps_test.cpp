@@ -52,7 +52,8 @@ struct Driven {
 };
 
 // The receiver loses lock in the gap or keeps it.
-Driven drive_with_gap(double begin, double length, bool loses_lock, PppParameters parameters = {}) {
+Driven drive_with_gap(double begin, double length, bool loses_lock,
+                      const PppParameters& parameters = {}) {
   RunOptions options;
   options.parameters = parameters;
   const GpsTime end = first() + from_seconds(begin + length);
