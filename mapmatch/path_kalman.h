@@ -26,7 +26,7 @@ struct PathEvidence {
 class PathKalman {
  public:
   static constexpr double max_azimuth_misfit = 16.0;  // sigmas squared
-  static constexpr double standing = 0.3;  // m/s, slower is no driving
+  static constexpr double standing = 0.3;             // m/s, slower is no driving
 
   PathKalman(const RoadNetwork& network, const MatchParameters& parameters)
       : network_(&network), parameters_(&parameters) {}

@@ -80,8 +80,8 @@ void add_findings(const SensorHealth& s, std::vector<std::string>& sentences) {
     return;
   }
   if (s.left_out > 0) {
-    sentences.push_back(fmt::format("{} of {} of {} were left out, most because: {}.",
-                                    s.left_out, s.samples + s.left_out, s.name, s.finding));
+    sentences.push_back(fmt::format("{} of {} of {} were left out, most because: {}.", s.left_out,
+                                    s.samples + s.left_out, s.name, s.finding));
   }
   constexpr double many_periods = 5.0;
   if (s.longest_gap * s.rate > many_periods) {
