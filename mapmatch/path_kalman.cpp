@@ -158,8 +158,10 @@ void PathKalman::correct(PathHypothesis& h, const PathEvidence& e) const {
     S *= nis / parameters_->gate;
     nis = parameters_->gate;
   }
-  h.log_weight -=
-      parameters_->position_weight * 0.5 * (nis + std::log(std::max(1e-12, S.determinant())));
+  if (e.motion.speed >= standing) {
+    h.log_weight -=
+        parameters_->position_weight * 0.5 * (nis + std::log(std::max(1e-12, S.determinant())));
+  }
   const Eigen::Matrix<double, 3, 2> K = h.covariance * H.transpose() * S.inverse();
   const Eigen::Vector3d step = K * innovation;
   h.s += step.x();
@@ -190,6 +192,7 @@ void PathKalman::judge_offset(PathHypothesis& h, const PathPoint& best,
   if (along > lost) h.offset_misfit += along;
   if (!network_->allowed(best.link) && !network_->doubted(best.link.link))
     h.offset_misfit += parameters_->wrong_way_misfit;
+  if (e.motion.speed < standing) return;
   // An offset that is attributed to the map's error costs weight as long as it lasts.
   h.log_weight -=
       parameters_->misfit_rate * 0.5 * h.offset_misfit * std::min(e.motion.interval, 1.0);

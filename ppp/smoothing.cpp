@@ -31,7 +31,9 @@ PppSolution combined(const PppSolution& forward, const PppSolution& backward) {
   if (!forward.has_position()) return backward;
   const double forward_trace = forward.covariance.trace();
   const double backward_trace = backward.covariance.trace();
-  PppSolution both = forward_trace <= backward_trace ? forward : backward;
+  const bool from_forward =
+      forward.bridged == backward.bridged ? forward_trace <= backward_trace : backward.bridged;
+  PppSolution both = from_forward ? forward : backward;
   both.status = std::max(forward.status, backward.status);
   both.bridged = forward.bridged && backward.bridged;
   // (29) of METHOD.md

@@ -89,8 +89,11 @@ Outcome apply_event(FilterState& state, const Event& event, const InertialSample
   if (const auto* fix = std::get_if<GnssFix>(&event.measurement)) {
     // Without odometry, the fix must not move the frame of odometry.
     if (state.stamp - state.clone_stamp > from_seconds(p.max_interval)) take_clone(state);
-    if (event.key.kind == EventKind::gnss_position) {
-      judge_by_velocity(state, *fix, p);
+    const bool of_velocity = event.key.kind == EventKind::gnss_velocity;
+    if (of_velocity) judge_by_velocity(state, *fix, frame, p);
+    const FixBefore& newest = state.fix_before;
+    if (newest.repeats && newest.stamp == fix->velocity_stamp) return refused(Reason::frozen);
+    if (!of_velocity) {
       return apply_gnss_position(state, *fix, frame, p);
     }
     const bool known = samples.before != nullptr && !frozen(samples.repeated, p);

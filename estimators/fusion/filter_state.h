@@ -80,16 +80,15 @@ struct Stillness {
   // vehicle.
   Time seen_standing{};
   Time seen_moving{};
-  // Fixes have said since then that a vehicle that seems to stand moves, and are believed until.
-  Time carried_since{};
-  Time denied_until{};
+  FixEvidence carried;  // that a vehicle that seems to stand moves,
+  Time denied_until{};  // which is believed until then
 };
 
 template <class Archive>
 void archive(Archive& ar, Stillness& s) {
   ar(s.mean_force, s.force_variance, s.mean_left, s.left_variance, s.mean_rate, s.rate_variance,
      s.mean_roll_rate, s.roll_rate_variance, s.mean_pitch_rate, s.pitch_rate_variance,
-     s.seen_standing, s.seen_moving, s.carried_since, s.denied_until);
+     s.seen_standing, s.seen_moving, s.carried, s.denied_until);
 }
 
 // This is a pose in the frame of odometry, which agrees with enu at the filter's start and then
@@ -139,7 +138,9 @@ struct FilterState {
   double yaw_rate = 0.0;    // rad/s, measured by the gyro, of this time by its delay
   Contradictions contradictions;
   WheelCheck wheel_check;
-  Time forward_stamp{};  // newest velocity of a fix after which the vehicle did not race in reverse
+  FixBefore fix_before;
+  FixEvidence front_doubt;   // that the vehicle's front is where its rear was assumed
+  bool front_known = false;  // it has been faster than any reverses
 
   double ground_speed() const { return x[index::speed] / (1.0 + x[index::speed_scale]); }
   Attitude attitude() const { return {x[index::azimuth], x[index::pitch], x[index::roll]}; }
@@ -168,7 +169,7 @@ void archive(Archive& ar, FilterState& s) {
      s.odometry_applied, s.odometry_refused, s.gated_in_a_row, s.refused_fixes,
      s.velocity_gated_in_a_row, s.wheel_gated_in_a_row, s.map_gated_in_a_row, s.recoveries,
      s.reinitializations, s.chained_azimuth, s.stillness, s.imu_repeated, s.yaw_rate,
-     s.contradictions, s.wheel_check, s.forward_stamp);
+     s.contradictions, s.wheel_check, s.fix_before, s.front_doubt, s.front_known);
 }
 
 // Returns the unit vector in enu at an azimuth and an elevation (rad).

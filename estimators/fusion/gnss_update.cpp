@@ -46,6 +46,7 @@ void restart_from(FilterState& state, GnssFix fix, const LocalFrame& frame,
   // The scale's variance is that of a new start, but its estimate is kept and applied to the speed.
   state.x[speed] *= 1.0 + x[speed_scale];
   state.x[speed_scale] = x[speed_scale];
+  state.front_known = false;
   start_clone(state, odom);
   ++state.reinitializations;
 }

@@ -5,18 +5,17 @@
 // have moved; this compares the two sensors with each other.
 #pragma once
 
-#include "msgs/gnss.h"
+#include "estimators/fusion/fix_evidence.h"
 #include "msgs/wheel_speed.h"
 
 namespace maploop::fusion {
 
 // What the fixes have shown of the wheels so far.
 struct WheelCheck {
-  double speed = 0.0;    // m/s, of the newest sample
-  Time stamp{};          // of the same
-  Time compared{};       // stamp of the newest velocity that was compared
-  double opposed = 0.0;  // s, for which fixes have contradicted `wrong` without a break
-  bool wrong = false;    // the wheels do not measure the speed
+  double speed = 0.0;   // m/s, of the newest sample
+  Time stamp{};         // of the same
+  FixEvidence opposed;  // of fixes that contradict `wrong`
+  bool wrong = false;   // the wheels do not measure the speed
 
   void add(const WheelSpeed& sample) {
     speed = sample.speed;
@@ -24,17 +23,19 @@ struct WheelCheck {
   }
   // Compares the newest sample with the velocity of a fix. `scale` is how much more than the speed
   // over ground the wheels read, 1. Returns whether `wrong` has become true.
-  bool compare(const GnssFix& fix, double scale);
+  bool compare(const GnssFix& fix, const FixStep& step, double scale);
 };
 
 template <class Archive>
 void archive(Archive& ar, WheelCheck& w) {
-  ar(w.speed, w.stamp, w.compared, w.opposed, w.wrong);
+  ar(w.speed, w.stamp, w.opposed, w.wrong);
 }
 
 // Road vehicles do not drive faster in reverse.
 inline constexpr double fastest_reverse = 6.0;  // m/s
-// A less certain velocity does not judge other aids.
-inline constexpr double worst_judge = 0.5;  // m/s, 1 sigma of a horizontal axis
+
+// Return the greatest standard deviation of a horizontal axis, m/s and m.
+double velocity_sigma_of(const GnssFix& fix);
+double position_sigma_of(const GnssFix& fix);
 
 }  // namespace maploop::fusion

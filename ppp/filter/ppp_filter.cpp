@@ -74,7 +74,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch, const CarriedMotion* c
   if (interval != 0.0) predict(interval, carried);
   time_ = epoch.time;
   const bool located = !is_lost() || locate(measured_);
-  use_height();
+  if (located) use_height();
   model_.begin(time_, state_.x().segment<3>(S::position));
   if (epoch.power_failure) satellites_.lose_lock();
   std::vector<Tracked>& tracked =

@@ -135,7 +135,8 @@ void SatelliteTracker::pass(double interval, const PppParameters& parameters) {
   const double pause = std::abs(interval), longest = parameters.longest_pause;
   for (Memory& memory : memory_) {
     const bool too_long = pause > (memory.dual ? longest : std::min(longest, longest_single));
-    memory.epochs_away = too_long ? for_long : memory.epochs_away + 1;
+    memory.phase_lost |= too_long;
+    ++memory.epochs_away;
   }
 }
 
@@ -158,7 +159,7 @@ PppSlip SatelliteTracker::look_for_slip(const Tracked& tracked, double interval,
   const PredictedRange& p = tracked.predicted;
   Memory& memory = memory_[m.satellite.slot()];
   const double since = interval * std::max(1, memory.epochs_away);
-  const bool away_for_long = memory.epochs_away > parameters.longest_gap;
+  const bool away_for_long = memory.phase_lost || memory.epochs_away > parameters.longest_gap;
   const bool other_carriers = memory.dual != m.dual();
   if (away_for_long || other_carriers) memory.slips.reset();
   memory.dual = m.dual();
@@ -166,8 +167,8 @@ PppSlip SatelliteTracker::look_for_slip(const Tracked& tracked, double interval,
   if (slip != PppSlip::none || away_for_long || other_carriers)
     state.remove_ambiguities(m.satellite);
   const double phase_less_range = m.phase(Combination::range) - p.phase(m, Combination::range);
-  const bool goes_on =
-      memory.epochs_away == 1 && memory.message == p.satellite.message && !other_carriers;
+  const bool goes_on = memory.epochs_away == 1 && memory.message == p.satellite.message &&
+                       !away_for_long && !other_carriers;
   if (goes_on && slip == PppSlip::none && !m.dual() && interval != 0.0) {
     const double limit = slip_limit(parameters.slip_phase_step, interval, p.elevation, parameters);
     phase_steps_.push_back({tracked_.size(), p.to_satellite,
@@ -176,6 +177,7 @@ PppSlip SatelliteTracker::look_for_slip(const Tracked& tracked, double interval,
   memory.message = p.satellite.message;
   memory.phase_less_range = phase_less_range;
   memory.epochs_away = 0;
+  memory.phase_lost = false;
   return slip;
 }
 

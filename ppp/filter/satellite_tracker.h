@@ -36,7 +36,7 @@ class SatelliteTracker {
 
   // The receiver has lost all phases, also those of satellites that are not measured now.
   void lose_lock() {
-    for (Memory& memory : memory_) memory.epochs_away = for_long;
+    for (Memory& memory : memory_) memory.phase_lost = true;
   }
 
   // Returns the satellites that have an orbit and are above the mask; they are valid until the next
@@ -60,12 +60,12 @@ class SatelliteTracker {
   }
 
  private:
-  static constexpr int for_long = 1'000'000;  // epochs, more than any `longest_gap`
-  struct Memory {                             // one satellite's
+  struct Memory {  // one satellite's
     SlipDetector slips;
     bool dual = false;  // the phase was that of two carriers
     double wind_up = 0.0;
     int epochs_away = 0;
+    bool phase_lost = false;  // the next phase begins a new ambiguity
     std::optional<GpsTime> last_code;
     std::uint32_t source = 0;  // the source of orbit and clock
     bool integer = false;      // the biases of its phases were known
@@ -75,7 +75,7 @@ class SatelliteTracker {
     IonosphericDelay ionosphere;  // of the model, at the last epoch
     template <class Archive>
     void archive(Archive& ar) {
-      ar(slips, dual, wind_up, epochs_away, last_code, source, integer, phase_jumps);
+      ar(slips, dual, wind_up, epochs_away, phase_lost, last_code, source, integer, phase_jumps);
       ar(message, phase_less_range, ionosphere.value, ionosphere.source);
     }
   };

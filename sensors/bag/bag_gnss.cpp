@@ -93,6 +93,7 @@ class FixMaker {
     const double sigma = stream_.settings().parameters.gnss_velocity_sigma;
     fix.velocity_enu = nearest->enu;
     fix.velocity_stamp = nearest->stamp;
+    fix.available = std::max(fix.available, nearest->stamp);
     fix.velocity_covariance = sigma * sigma * Eigen::Matrix3d::Identity();
   }
 

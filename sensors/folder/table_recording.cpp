@@ -29,9 +29,12 @@ Eigen::Matrix3d covariance(TableValues north_east_down) {
       .asDiagonal();
 }
 
-// A receiver that does not know how good it is says 0.
-bool stated(TableValues sigmas) {
-  return std::ranges::any_of(sigmas, [](double sigma) { return sigma > 0.0; });
+// Takes a standard deviation of `usual` for those axes (north, east, down) of which none is stated,
+// or 0, as receivers do that do not know.
+Eigen::Matrix3d covariance_or(TableValues stated, std::array<double, 3> usual) {
+  for (std::size_t i = 0; i < stated.size(); ++i)
+    if (stated[i] > 0.0) usual[i] = stated[i];
+  return covariance(usual);
 }
 
 std::shared_ptr<TableRows<GnssFix>> read_fixes(const OpenedTable& opened, const GnssTable& t,
@@ -54,14 +57,11 @@ std::shared_ptr<TableRows<GnssFix>> read_fixes(const OpenedTable& opened, const 
                       velocity_sigma = take(t.velocity_sigma);
     if (t.quality.given() && v[0] == 0.0) throw std::invalid_argument("the receiver had no fix");
     const double p = t.default_position_sigma, s = t.default_velocity_sigma;
-    fix.position_covariance = stated(position_sigma)
-                                  ? covariance(position_sigma)
-                                  : covariance(std::array{p, p, height_share * p});
+    fix.position_covariance = covariance_or(position_sigma, {p, p, height_share * p});
     fix.velocity_stamp = fix.stamp;
     if (!t.velocity.given()) return;
     fix.velocity_enu = velocity_enu(t.velocity_axes, velocity, fix.position);
-    fix.velocity_covariance =
-        stated(velocity_sigma) ? covariance(velocity_sigma) : covariance(std::array{s, s, s});
+    fix.velocity_covariance = covariance_or(velocity_sigma, {s, s, s});
   };
   auto rows = read_rows<GnssFix>(opened.table, opened.clock, start, wanted, fill);
   VelocityFromPositions derivative;

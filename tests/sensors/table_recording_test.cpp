@@ -88,6 +88,8 @@ TEST_F(Tables, ASigmaOfZeroIsNotKnown) {
   EXPECT_NEAR(fixes[0].velocity_covariance(0, 0),
               defaults.default_velocity_sigma * defaults.default_velocity_sigma, 1e-12);
   EXPECT_NEAR(fixes[1].position_covariance(0, 0), 0.25, 1e-12);
+  EXPECT_EQ(fixes[1].position_covariance(1, 1), fixes[0].position_covariance(1, 1));
+  EXPECT_EQ(fixes[1].position_covariance(2, 2), fixes[0].position_covariance(2, 2));
 }
 
 TEST_F(Tables, AUnitThatFeelsNoGravityOrTurnsTooFastIsAskedForItsUnits) {

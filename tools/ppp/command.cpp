@@ -175,7 +175,7 @@ void write_files(const PppOptions& options, const gnss::PppRun& run, const gnss:
 // Reads a file, or those files of a folder whose kind is known.
 void read(const std::filesystem::path& path, ppp::GnssFiles& files) {
   if (!std::filesystem::is_directory(path)) {
-    if (file_size(path) == 0) {
+    if (is_regular_file(path) && file_size(path) == 0) {
       std::cerr << "maploop: " << path.string() << ": is empty, and is passed over\n";
     } else {
       ppp::read_into(path, files);

@@ -155,7 +155,7 @@ class CompactReader {
 
   bool read_event(int count) {
     columns_known_ = false;
-    for (int i = 0; i < count; ++i) {
+    for (const int last = lines_.line_number() + count; lines_.line_number() < last;) {
       if (!lines_.next() || !lines_.whole()) return false;
       apply_header_record(lines_, in_force_);
     }

@@ -158,7 +158,8 @@ class PlainReader {
     if (flag == 6) lines_.fail("records of cycle slips (epoch flag 6) are not used");
     columns_known_ = false;
     bool whole = true;
-    for (int i = 0; i < count && whole; ++i) {
+    // A record may go on in further lines, which count.
+    for (const int last = lines_.line_number() + count; whole && lines_.line_number() < last;) {
       if (!lines_.next()) return false;
       whole = !lines_.line().starts_with('>');
       if (whole) apply_header_record(lines_, in_force_);

@@ -21,7 +21,7 @@ class RefusedLines {
     refuse(result_, ReadError(reason + "; " + which));
     // Most files are judged at their end; one that is nothing but errors would take too long.
     constexpr int enough = 1000;
-    if (times_ > enough) judge();
+    if (times_ > enough && result_.epochs.empty()) judge();
   }
 
   // Throws if the file cannot be read on the whole.

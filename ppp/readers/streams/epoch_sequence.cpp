@@ -1,6 +1,7 @@
 #include "ppp/readers/streams/epoch_sequence.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace maploop::ppp {
 
@@ -8,6 +9,7 @@ void EpochSequence::add(Epoch& epoch) {
   auto& epochs = observations_.epochs;
   if (epochs.empty() || epoch.time > epochs.back().time) {
     refuse_held();
+    epoch.power_failure |= std::exchange(power_failed_, false);
     epochs.push_back(std::move(epoch));
   } else {
     if (!held_.empty() && epoch.time <= held_.back().epoch.time) refuse_held();
@@ -31,6 +33,7 @@ std::size_t EpochSequence::contradicted() const {
 
 void EpochSequence::refuse_held() {
   for (const Held& held : held_) {
+    power_failed_ |= held.epoch.power_failure;
     refuse(observations_,
            ReadError(lines_.file() + ":" + std::to_string(held.line) + ": epoch " +
                      format_gps_time(held.epoch.time) + " is not after the one before, " +
@@ -51,6 +54,7 @@ void EpochSequence::believe_held() {
                      ", which follows it: its date is taken to be wrong"));
   }
   epochs.erase(kept, epochs.end());
+  held_.front().epoch.power_failure |= std::exchange(power_failed_, false);
   for (Held& held : held_) epochs.push_back(std::move(held.epoch));
   held_.clear();
 }

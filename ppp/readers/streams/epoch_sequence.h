@@ -35,7 +35,8 @@ class EpochSequence {
 
   Observations& observations_;
   const Lines& lines_;
-  std::vector<Held> held_;  // in the order of time
+  std::vector<Held> held_;     // in the order of time
+  bool power_failed_ = false;  // at an epoch that was refused since the last one kept
 };
 
 }  // namespace maploop::ppp
