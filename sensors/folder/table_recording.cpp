@@ -221,11 +221,13 @@ Time TableRecording::last_stamp() const {
 }
 
 std::unique_ptr<Source<GnssFix>> TableRecording::gnss() const {
-  return gnss_ != nullptr ? source_of(gnss_) : nullptr;
+  if (gnss_ == nullptr) return nullptr;
+  return source_of(gnss_);
 }
 
 std::unique_ptr<Source<WheelSpeed>> TableRecording::wheel() const {
-  return wheel_ != nullptr ? source_of(wheel_) : nullptr;
+  if (wheel_ == nullptr) return nullptr;
+  return source_of(wheel_);
 }
 
 std::unique_ptr<AlignedImu> TableRecording::imu(std::unique_ptr<Source<GnssFix>> fixes,
@@ -237,7 +239,8 @@ std::unique_ptr<AlignedImu> TableRecording::imu(std::unique_ptr<Source<GnssFix>>
 }
 
 std::unique_ptr<Source<ReferencePose>> TableRecording::reference() const {
-  return reference_ != nullptr ? source_of(reference_) : nullptr;
+  if (reference_ == nullptr) return nullptr;
+  return source_of(reference_);
 }
 
 }  // namespace maploop::sensors

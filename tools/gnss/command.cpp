@@ -14,7 +14,8 @@ namespace {
 
 // Every file is tried; one that cannot be read makes the exit status 1.
 int gnss_info(const std::vector<std::filesystem::path>& files) {
-  int status = 0;
+  int status = 1;  // unless a file is read, and none cannot be
+  bool failed = false;
   ppp::GnssFiles all;
   for (const auto& file : files) {
     try {
@@ -25,13 +26,14 @@ int gnss_info(const std::vector<std::filesystem::path>& files) {
       ppp::GnssFiles one;
       std::cout << gnss::info(file, one);
       append(all, std::move(one));
+      status = 0;
     } catch (const std::runtime_error& error) {
       std::cerr << "maploop: " << error.what() << '\n';
-      status = 1;
+      failed = true;
     }
   }
   if (files.size() > 1) std::cout << gnss::reach(all);
-  return status;
+  return failed ? 1 : status;
 }
 
 }  // namespace

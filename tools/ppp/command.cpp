@@ -115,9 +115,10 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
     r.score = std::make_unique<gnss::Score>(*r.truth, integrity_risk);
     if (on_map) r.without_map = std::make_unique<gnss::Score>(*r.truth, integrity_risk);
   }
-  if (!options.score_start.empty())
+  if (!options.score_start.empty()) {
     r.scored_from = gnss::beginning(options.score_start, "--score-start", first,
                                     run.setup().observations().epochs.back().time);
+  }
   if (on_map && r.truth)
     r.comparison = std::make_unique<gnss::MapComparison>(*r.truth, r.scored_from);
   gnss::EpochMessages messages;

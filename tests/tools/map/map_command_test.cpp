@@ -55,7 +55,7 @@ TEST_F(MapCommand, DoubtsCorrectANetworkAndATiledMapAlike) {
       ASSERT_EQ(building.status, 0) << building.error;
       const ProcessResult matched = run_maploop({"match", built, track});
       if (correction.empty()) {
-        EXPECT_THAT(matched.out, HasSubstr("4541 fixes, 4412 on a road"));
+        EXPECT_THAT(matched.out, HasSubstr("4541 fixes, 4398 on a road"));
       } else {
         EXPECT_THAT(building.out, HasSubstr("corrected: 1 missing roads"));
         EXPECT_THAT(matched.out, HasSubstr("4541 fixes, 4541 on a road"));
