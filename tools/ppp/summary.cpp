@@ -148,9 +148,10 @@ std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, do
                   r.solved, epochs,
                   100.0 * static_cast<double>(r.solved) / static_cast<double>(epochs),
                   run.seconds(), 1e3 * run.seconds() / static_cast<double>(epochs))};
-  if (r.bridged > 0)
+  if (r.bridged > 0) {
     lines.push_back(
         fmt::format("{} epochs with fewer than four satellites are bridged", r.bridged));
+  }
   if (run.setup().parameters().integers && run.setup().precise() && !run.setup().one_frequency())
     lines.push_back(integer_line(r.solutions));
   if (run.setup().never_converges()) {

@@ -90,7 +90,7 @@ std::string score_of(const ReplayResult& r) {
 
 std::string how_good(const ReplayResult& r) {
   constexpr double worth_saying = 1.0;  // s
-  const std::string score = score_of(r);
+  std::string score = score_of(r);
   if (r.without_position < worth_saying) return score;
   return fmt::format("{} No position for {:.0f} s after the first.", score, r.without_position);
 }

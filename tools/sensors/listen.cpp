@@ -132,6 +132,7 @@ int listen_to_sensors(const ListenOptions& options) {
   note_interrupts();
   {
     std::vector<std::jthread> threads;
+    threads.reserve(listeners.size());
     for (const auto& listener : listeners) threads.emplace_back(listener);
   }
   bool all = true;

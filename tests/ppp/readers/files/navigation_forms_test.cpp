@@ -85,10 +85,11 @@ TEST(NavigationForms, AMessageOfGlonassMayHaveItsStatusLineInEachVersion) {
       "     1.790000000000e+02 0.000000000000e+00 0.000000000000e+00 0.000000000000e+00\n";
   for (const std::string version : {"3.04", "3.05"}) {
     for (const std::string& one : {message, message + status}) {
-      const NavigationFile n = parse_navigation(
-          navigation_header("     " + version + "           N: GNSS NAV DATA    R: GLONASS") + one +
-              one,
-          "n");
+      std::string first = "     ";
+      first.append(version).append("           N: GNSS NAV DATA    R: GLONASS");
+      std::string text = navigation_header(first);
+      text.append(one).append(one);
+      const NavigationFile n = parse_navigation(text, "n");
       ASSERT_EQ(n.glonass.size(), 2U) << version;
       EXPECT_EQ(n.glonass[1].position, Eigen::Vector3d(2e7, 1e7, 1.2e7));
       EXPECT_EQ(n.refused, 0);

@@ -45,8 +45,9 @@ TEST(ObservationHeader, OfTwoColumnsOfOneSignalTheOneWithAValueCounts) {
   const std::string epoch = " 21  1  1  0  0  0.0000000  0  1G05\n";
   const std::string value = "  20000000.000  ", nothing(16, ' ');
   for (const std::string& line : {value + nothing, nothing + value}) {
-    const Observations o = parse_observations(
-        observation_header("2.12", "     2    C1    CA") + epoch + line + '\n', "o");
+    std::string text = observation_header("2.12", "     2    C1    CA");
+    for (const std::string& part : {epoch, line, std::string("\n")}) text += part;
+    const Observations o = parse_observations(text, "o");
     ASSERT_EQ(o.epochs.size(), 1U);
     ASSERT_EQ(o.epochs[0].signals.size(), 1U);
     EXPECT_DOUBLE_EQ(o.epochs[0].signals[0].code, 2e7);
