@@ -78,11 +78,18 @@ class FixMaker {
     return fix;
   }
 
-  // Gives the held fix the nearer of the last velocity and of the one that follows.
+  // Gives the held fix, which is available once its velocity is, and after the fix before it.
   void give(GnssFix& fix, const Velocity* following) {
     fix = *held_;
     held_.reset();
     derivative_.set_velocity(fix);
+    set_velocity(fix, following);
+    fix.available = std::max({fix.available, fix.velocity_stamp, earliest_});
+    earliest_ = fix.available + Duration(1);
+  }
+
+  // Sets the nearer of the last velocity and of the one that follows.
+  void set_velocity(GnssFix& fix, const Velocity* following) const {
     const Velocity* nearest = last_velocity_ ? &*last_velocity_ : following;
     if (following != nullptr && last_velocity_ &&
         following->stamp - fix.stamp < fix.stamp - last_velocity_->stamp) {
@@ -93,7 +100,6 @@ class FixMaker {
     const double sigma = stream_.settings().parameters.gnss_velocity_sigma;
     fix.velocity_enu = nearest->enu;
     fix.velocity_stamp = nearest->stamp;
-    fix.available = std::max(fix.available, nearest->stamp);
     fix.velocity_covariance = sigma * sigma * Eigen::Matrix3d::Identity();
   }
 
@@ -113,6 +119,7 @@ class FixMaker {
   bool has_velocity_;
   std::optional<GnssFix> held_;
   std::optional<Velocity> last_velocity_;
+  Time earliest_{};  // at which the next fix can be available
   VelocityFromPositions derivative_;
   std::uint64_t fixes_ = 0;
 };
