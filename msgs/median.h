@@ -1,4 +1,4 @@
-// Computes the median; of an even number of values it is the upper one of the middle two.
+// Computes quantiles: values of which a share is smaller.
 #pragma once
 
 #include <algorithm>
@@ -6,11 +6,18 @@
 
 namespace maploop {
 
-// Precondition: there is at least one value. The order of the values changes.
+// Precondition: there is at least one value, and the share is in [0, 1). The order of the values
+// changes.
+inline double quantile(std::span<double> values, double share) {
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+// The same of a half: of an even number of values it is the upper one of the middle two.
 inline double median(std::span<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return quantile(values, 0.5);
 }
 
 }  // namespace maploop

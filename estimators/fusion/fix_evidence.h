@@ -1,4 +1,4 @@
-// What consecutive fixes say together, as evidence against another aid.
+// Consecutive fixes that agree with each other are evidence against another aid.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,15 @@
 
 namespace maploop::fusion {
 
-// From one fix to the next.
+// Return the greatest standard deviation of a horizontal axis, m/s and m.
+inline double velocity_sigma_of(const GnssFix& fix) {
+  return std::sqrt(fix.velocity_covariance.diagonal().head<2>().maxCoeff());
+}
+inline double position_sigma_of(const GnssFix& fix) {
+  return std::sqrt(fix.position_covariance.diagonal().head<2>().maxCoeff());
+}
+
+// A step leads from one fix to the next.
 struct FixStep {
   double interval = 0.0;        // s; 0: the fix says nothing together with the one before
   double way = 0.0;             // m, by the velocities

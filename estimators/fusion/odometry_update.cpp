@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "estimators/fusion/follow_innovation.h"
 #include "estimators/fusion/gnss_update.h"

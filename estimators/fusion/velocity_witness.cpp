@@ -63,18 +63,6 @@ bool contrary(const FilterState& state, const GnssFix& fix) {
          by_fix.dot(by_state) < opposite * by_fix.norm() * by_state.norm();
 }
 
-// The sign of the speed was right, and so was the motion in the frame of odometry.
-void face_about(FilterState& state) {
-  const Eigen::Quaterniond in_odometry = state.odom_at_clone.rotation;
-  turn_round(state);
-  state.odom_at_clone.rotation = in_odometry;
-  for (const int i : {index::speed, index::distance}) {
-    state.x[i] = -state.x[i];
-    state.P.row(i) *= -1.0;
-    state.P.col(i) *= -1.0;
-  }
-}
-
 void judge_front(FilterState& state, const GnssFix& fix, const FixStep& step,
                  const FusionParameters& p) {
   const Time recent = fix.velocity_stamp - from_seconds(p.fix_hold);
@@ -89,7 +77,7 @@ void judge_front(FilterState& state, const GnssFix& fix, const FixStep& step,
   }
   state.front_doubt.add(step);
   if (state.front_known || !state.front_doubt.shows(front_doubted, position_sigma_of(fix))) return;
-  against ? face_about(state) : turn_round(state);
+  against ? turn_heading(state) : turn_round(state);
   state.front_doubt = {};
   state.refused_fixes = {};
   ++state.recoveries;

@@ -1,5 +1,5 @@
-// What the velocities of fixes show of the other aids, whatever the state says: the state may be
-// what a wrong aid has made of it.
+// The velocities of fixes judge the other aids. They do so without the state, because a wrong aid
+// may have made the state what it is.
 #pragma once
 
 #include "estimators/fusion/fusion_parameters.h"

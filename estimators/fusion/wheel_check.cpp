@@ -16,14 +16,6 @@ constexpr double longer_than_slip = 4.0;  // s
 
 }  // namespace
 
-double velocity_sigma_of(const GnssFix& fix) {
-  return std::sqrt(fix.velocity_covariance.diagonal().head<2>().maxCoeff());
-}
-
-double position_sigma_of(const GnssFix& fix) {
-  return std::sqrt(fix.position_covariance.diagonal().head<2>().maxCoeff());
-}
-
 bool WheelCheck::compare(const GnssFix& fix, const FixStep& step, double scale) {
   if (step.interval == 0.0) {
     opposed = {};

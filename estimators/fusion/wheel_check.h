@@ -1,4 +1,4 @@
-// Whether the wheels measure the vehicle's speed is judged by the velocities of fixes.
+// The velocities of fixes show whether the wheels measure the vehicle's speed.
 //
 // The wheels come a hundred times as often as fixes, so a filter that is given a speed in another
 // unit follows it, and on a ferry it stands still. Each gate judges by the state, which the wheels
@@ -10,7 +10,7 @@
 
 namespace maploop::fusion {
 
-// What the fixes have shown of the wheels so far.
+// This is what the fixes have shown of the wheels so far.
 struct WheelCheck {
   double speed = 0.0;   // m/s, of the newest sample
   Time stamp{};         // of the same
@@ -33,9 +33,5 @@ void archive(Archive& ar, WheelCheck& w) {
 
 // Road vehicles do not drive faster in reverse.
 inline constexpr double fastest_reverse = 6.0;  // m/s
-
-// Return the greatest standard deviation of a horizontal axis, m/s and m.
-double velocity_sigma_of(const GnssFix& fix);
-double position_sigma_of(const GnssFix& fix);
 
 }  // namespace maploop::fusion

@@ -8,7 +8,6 @@
 #include "ppp/filter/height_update.h"
 #include "ppp/filter/row_report.h"
 #include "ppp/filter/signal_choice.h"
-#include "ppp/filter/single_point.h"
 #include "ppp/filter/time_update.h"
 
 namespace maploop::ppp {
@@ -104,16 +103,22 @@ void PppFilter::begin_solution(GpsTime t) {
   solution_.restarts = restarts_;
 }
 
+// Returns the position by the codes alone; without one, `failed` begins the solution's message.
+std::optional<SinglePoint> PppFilter::by_code(const std::vector<Measurement>& measured, GpsTime t,
+                                              const char* failed) {
+  SinglePoint point =
+      solve_single_point(measured, t, state_.x().segment<3>(S::position), parameters_, model_);
+  if (point.failure.empty()) return point;
+  solution_.message = failed + point.failure;
+  return std::nullopt;
+}
+
 // Starts at a position by code.
 bool PppFilter::start(const std::vector<Measurement>& measured, GpsTime t) {
-  const SinglePoint point =
-      solve_single_point(measured, t, state_.x().segment<3>(S::position), parameters_, model_);
-  if (!point.failure.empty()) {
-    solution_.message = "no first position: " + point.failure;
-    return false;
-  }
-  begin_state(state_, point.position, parameters_);
-  levels_.begin(point.residual_level);
+  const auto point = by_code(measured, t, "no first position: ");
+  if (!point) return false;
+  begin_state(state_, point->position, parameters_);
+  levels_.begin(point->residual_level);
   started_ = true;
   started_at_ = t;
   return true;
@@ -128,13 +133,9 @@ bool PppFilter::is_lost() const {
 // Begins a lost position anew with the codes. All that does not depend on the place stays: clocks,
 // delays, the errors of orbits, and the ambiguities of satellites that have been tracked since.
 bool PppFilter::locate(const std::vector<Measurement>& measured) {
-  const SinglePoint point =
-      solve_single_point(measured, time_, state_.x().segment<3>(S::position), parameters_, model_);
-  if (!point.failure.empty()) {
-    solution_.message = "the position is lost, and there is none by code: " + point.failure;
-    return false;
-  }
-  begin_position(state_, point.position, parameters_);
+  const auto point = by_code(measured, time_, "the position is lost, and there is none by code: ");
+  if (!point) return false;
+  begin_position(state_, point->position, parameters_);
   started_at_ = time_;
   grown_.reset();
   solution_.carried.reset();

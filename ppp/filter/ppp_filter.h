@@ -16,6 +16,7 @@
 #include "ppp/filter/receiver_clocks.h"
 #include "ppp/filter/robust_update.h"
 #include "ppp/filter/satellite_tracker.h"
+#include "ppp/filter/single_point.h"
 #include "ppp/filter/unobstructed_cn0.h"
 #include "ppp/heights/height_model.h"
 #include "ppp/integers/integer_fix.h"
@@ -82,6 +83,8 @@ class PppFilter {
   }
 
   void begin_solution(GpsTime t);
+  std::optional<SinglePoint> by_code(const std::vector<Measurement>& measured, GpsTime t,
+                                     const char* failed);
   bool start(const std::vector<Measurement>& measured, GpsTime t);
   bool is_lost() const;
   bool locate(const std::vector<Measurement>& measured);

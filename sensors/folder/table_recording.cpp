@@ -1,6 +1,5 @@
 #include "sensors/folder/table_recording.h"
 
-#include <algorithm>
 #include <array>
 #include <iomanip>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "msgs/median.h"
 #include "sensors/folder/table_reader.h"
 #include "sensors/gnss/velocity_from_positions.h"
 #include "sensors/replay/sequence_files.h"
@@ -83,19 +83,13 @@ void require_units(const TableRows<SixAxisSample>& rows) {
     rates.push_back(rows.samples[i].rate.norm());
   }
   if (forces.size() < enough) return;
-  const auto share = [](std::vector<double>& values, double part) {
-    const auto place =
-        values.begin() + static_cast<long>(part * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-  };
   const auto refuse = [&](double value, const char* what, const char* unit) {
     std::ostringstream text;
     text << rows.file.string() << ": " << std::setprecision(3) << value << what << unit
          << ", sensors/FORMATS.md)";
     throw std::runtime_error(text.str());
   };
-  const double force = share(forces, 0.5), rate = share(rates, 0.99);
+  const double force = median(forces), rate = quantile(rates, 0.99);
   if (force < least_gravity || force > most_gravity) {
     refuse(force,
            " m/s^2 is the specific force in the median, where gravity alone is 9.8; give forces "

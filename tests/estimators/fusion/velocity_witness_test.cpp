@@ -35,7 +35,7 @@ WheelSpeed wheel_of(double t, double speed) {
 }
 
 // Returns whether the wheels are taken to be wrong after `seconds` of fixes, two a second, whose
-// the positions move otherwise by `apart` of the way.
+// positions move otherwise by `apart` of the way.
 bool wrong_after(double seconds, double by_fix, double by_wheels, WheelCheck check = {},
                  const Eigen::Vector2d& apart = {0.0, 0.0}) {
   constexpr double sigma = 0.05;  // m/s
@@ -53,7 +53,7 @@ TEST(WheelCheck, WheelsOfAWrongUnitOrSignOrThatStandAreWrong) {
   EXPECT_TRUE(wrong_after(10.0, 10.0, 0.0));
 }
 
-TEST(WheelCheck, WornTyresSlipForASecondsAndReversingAreNot) {
+TEST(WheelCheck, WornTyresAShortSlipAndReversingAreNotWrong) {
   EXPECT_FALSE(wrong_after(60.0, 10.0, 11.0));
   EXPECT_FALSE(wrong_after(60.0, 10.0, 9.0));
   EXPECT_FALSE(wrong_after(3.0, 10.0, 14.0));
