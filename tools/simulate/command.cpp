@@ -81,7 +81,7 @@ void add_simulate(CLI::App& app, Command& command) {
                   "New folder for the drive, in KITTI's layout (24 MB a second; --compact)")
       ->required();
   sub->add_option("--seconds", options->drive.seconds, "How long the drive takes")
-      ->check(number_in(1.0, 3600.0))
+      ->check(number_in(1.0, simulate::most_seconds))
       ->capture_default_str();
   sub->add_option("--seed", options->drive.seed, "Another seed, another town and drive")
       ->capture_default_str();

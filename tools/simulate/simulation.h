@@ -21,8 +21,10 @@ struct SimulatedSensors {
   bool camera = true, lidar = true, imu = true, gnss = true;
 };
 
+constexpr double most_seconds = 86400.0;  // s
+
 struct SimulationOptions {
-  double seconds = 60.0;
+  double seconds = 60.0;  // 1 to most_seconds
   std::uint64_t seed = 1;
   ImuGrade imu = ImuGrade::tactical;
   unsigned threads = 0;  // 0: one for each processor; the drive does not depend on their number
@@ -63,8 +65,8 @@ using FrameDone = std::function<bool(std::size_t done, std::size_t all)>;
 // The folder is complete or does not exist: its name has ".partial" appended until everything is
 // written. Returns false if `frame_done` stopped the simulation. Throws std::runtime_error naming a
 // folder that already exists or a file that cannot be written, a map that cannot be read or a route
-// that cannot be driven; std::invalid_argument for a drive shorter than a second or longer than an
-// hour.
+// that cannot be driven; std::invalid_argument for a drive shorter than a second or longer than a
+// day.
 bool simulate_drive(const std::filesystem::path& out, const SimulationOptions& options,
                     const FrameDone& frame_done = {});
 
