@@ -42,6 +42,7 @@ enum : int {
   lever_forward,    // m, the GNSS antenna from the origin of the body
   lever_left,
   lever_up,
+  gnss_delay,   // s, a fix is of so long before its stamp
   speed_scale,  // 1, the speed sensor (odometry or wheels) reports (1 + scale) times the speed
   lidar_scale,  // 1, a LiDAR's motion is (1 + scale) times the distance
   lidar_turn,   // rad/m, a LiDAR's motion turns too far by this about body z
@@ -134,8 +135,9 @@ struct FilterState {
   // `chain_odometry_azimuth` uses it.
   double chained_azimuth = 0.0;
   Stillness stillness;
-  Duration imu_repeated{};  // how long inertial samples have only repeated one value
-  double yaw_rate = 0.0;    // rad/s, measured by the gyro, of this time by its delay
+  Duration imu_repeated{};    // how long inertial samples have only repeated one value
+  double yaw_rate = 0.0;      // rad/s, measured by the gyro, of this time by its delay
+  double acceleration = 0.0;  // m/s^2, of the speed, mean of the last moments; 0: not known
   Contradictions contradictions;
   WheelCheck wheel_check;
   FixBefore fix_before;
@@ -169,7 +171,7 @@ void archive(Archive& ar, FilterState& s) {
      s.odometry_applied, s.odometry_refused, s.gated_in_a_row, s.refused_fixes,
      s.velocity_gated_in_a_row, s.wheel_gated_in_a_row, s.map_gated_in_a_row, s.recoveries,
      s.reinitializations, s.chained_azimuth, s.stillness, s.imu_repeated, s.yaw_rate,
-     s.contradictions, s.wheel_check, s.fix_before, s.front_doubt, s.front_known);
+     s.acceleration, s.contradictions, s.wheel_check, s.fix_before, s.front_doubt, s.front_known);
 }
 
 // Returns the unit vector in enu at an azimuth and an elevation (rad).

@@ -94,6 +94,7 @@ struct FusionParameters {
   double climb_offset_sigma = 0.0175;    // rad (1 deg)
   double climb_offset_time = 300.0;      // s
   double imu_delay_sigma = 0.0;          // s; 0: the delay is as described
+  double gnss_delay_sigma = 0.05;        // s; 0: the same
   double odometry_course_sigma = 0.035;  // rad (2 deg)
   double odometry_course_walk = 1e-4;    // rad/sqrt(s)
   double odometry_lever_sigma = 0.3;     // m

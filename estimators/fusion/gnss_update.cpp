@@ -72,6 +72,61 @@ const Matrix3d& velocity_covariance_of(const GnssFix& fix) {
   return fix.increment ? fix.increment->velocity_covariance : fix.velocity_covariance;
 }
 
+// This is a velocity (m/s) or an acceleration (m/s^2) over ground, enu, and its derivative.
+struct Motion {
+  Vector3d value;
+  Eigen::Matrix<double, 3, index::count> by_state = Eigen::Matrix<double, 3, index::count>::Zero();
+};
+
+Motion velocity_of(const FilterState& state) {
+  using namespace index;
+  const double sA = std::sin(state.x[azimuth]), cA = std::cos(state.x[azimuth]);
+  const double sc = std::sin(state.climb()), cc = std::cos(state.climb());
+  const double ground = state.ground_speed(), to_ground = 1.0 / (1.0 + state.x[speed_scale]);
+  const Vector3d travel(sA * cc, cA * cc, sc);
+  Motion velocity{ground * travel};
+  velocity.by_state.col(speed) = to_ground * travel;
+  velocity.by_state.col(speed_scale) = -ground * to_ground * travel;
+  velocity.by_state.col(azimuth) = ground * Vector3d(cA * cc, -sA * cc, 0.0);
+  velocity.by_state.col(climb_offset) = ground * Vector3d(-sA * sc, -cA * sc, cc);
+  velocity.by_state.col(pitch) = velocity.by_state.col(climb_offset);
+  return velocity;
+}
+
+// Takes the rate of turning to the left, rad/s.
+Motion acceleration_of(const FilterState& state, double rate) {
+  using namespace index;
+  const double sA = std::sin(state.x[azimuth]), cA = std::cos(state.x[azimuth]);
+  const double sc = std::sin(state.climb()), cc = std::cos(state.climb());
+  const double ground = state.ground_speed(), to_ground = 1.0 / (1.0 + state.x[speed_scale]);
+  const Vector3d left(-cA, sA, 0.0);
+  Motion a{state.acceleration * Vector3d(sA * cc, cA * cc, sc) + ground * rate * left};
+  a.by_state.col(speed) = to_ground * rate * left;
+  a.by_state.col(speed_scale) = -ground * to_ground * rate * left;
+  a.by_state.col(azimuth) =
+      state.acceleration * Vector3d(cA * cc, -sA * cc, 0.0) + ground * rate * Vector3d(sA, cA, 0.0);
+  a.by_state.col(climb_offset) = state.acceleration * Vector3d(-sA * sc, -cA * sc, cc);
+  a.by_state.col(pitch) = a.by_state.col(climb_offset);
+  a.by_state.col(gyro_bias) = -ground * left;
+  return a;
+}
+
+// A receiver that is carried measures at its stamps. Without inertial data, nothing tells how the
+// velocity changes over the delay, and a vehicle that was in reverse contradicts its fixes anyway.
+bool may_be_late(const FilterState& state, const GnssFix& fix, const FusionParameters& p) {
+  return !fix.increment && p.gnss_delay_sigma > 0.0 && state.front_known &&
+         state.stamp - state.imu_stamp <= from_seconds(p.imu_hold);
+}
+
+// Makes an innovation that of the time at which the fix was measured; `change` is what it measures
+// by time.
+void take_earlier(Innovation<3>& innovation, const FilterState& state, const Motion& change) {
+  const double delay = state.x[index::gnss_delay];  // (43) of METHOD.md
+  innovation.residual += delay * change.value;
+  innovation.H -= delay * change.by_state;
+  innovation.H.col(index::gnss_delay) -= change.value;
+}
+
 // Returns whether a velocity contradicts the state by its length alone: then the wheels slip, or
 // odometry is wrong, and the azimuth is right.
 bool contradicts_speed_alone(const FilterState& state, const Innovation<3>& innovation,
@@ -105,6 +160,7 @@ Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
   innovation.H.middleCols<3>(gnss_offset_east) = error.lasting;
   innovation.R = error.fresh;
   innovation.R.diagonal().array() += p.min_position_sigma * p.min_position_sigma;
+  if (may_be_late(state, fix, p)) take_earlier(innovation, state, velocity_of(state));
   return innovation;
 }
 
@@ -112,32 +168,27 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
                                   const FusionParameters& p) {
   using namespace index;
   const StateVector& x = state.x;
-  const double sA = std::sin(x[azimuth]), cA = std::cos(x[azimuth]);
-  const double sc = std::sin(state.climb()), cc = std::cos(state.climb());
-  const double ground = state.ground_speed();
-  const Vector3d travel(sA * cc, cA * cc, sc);
   // The antenna rotates about the point that moves along the azimuth.
   const Vector3d arm = state.gnss_lever() + Vector3d(swing_arm(x), 0.0, 0.0);
   const Matrix3d R = rotation_enu_body(state.attitude());
   const double rate = yaw_rate - x[gyro_bias];
   const Vector3d swing = R * Vector3d(0.0, 0.0, rate).cross(arm);
+  const Motion velocity = velocity_of(state);
 
   Innovation<3> innovation;
-  innovation.residual = velocity_of(fix) - ground * travel - swing;  // (19) of METHOD.md
-  innovation.H.col(speed) = travel / (1.0 + x[speed_scale]);
-  innovation.H.col(speed_scale) = -ground / (1.0 + x[speed_scale]) * travel;
-  innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), swing);
-  innovation.H.col(azimuth) += ground * Vector3d(cA * cc, -sA * cc, 0.0);
-  innovation.H.col(climb_offset) = ground * Vector3d(-sA * sc, -cA * sc, cc);
-  innovation.H.col(pitch) += innovation.H.col(climb_offset);
+  innovation.residual = velocity_of(fix) - velocity.value - swing;  // (19) of METHOD.md
+  innovation.H = velocity.by_state;
+  innovation.H.middleCols<3>(azimuth) += turned_by_attitude(state.attitude(), swing);
   innovation.H.col(gyro_bias) = -(R * Vector3d::UnitZ().cross(arm));
   add_swing_derivatives(x, rate * R.col(1), innovation.H);
   innovation.H.col(lever_forward) = rate * R.col(1);
   innovation.H.col(lever_left) = -rate * R.col(0);
-  const double slip = p.slip_sigma * ground;
+  const Vector3d travel = direction(x[azimuth], state.climb());
+  const double slip = p.slip_sigma * state.ground_speed();
   innovation.R = velocity_covariance_of(fix) +
                  slip * slip * (Matrix3d::Identity() - travel * travel.transpose());
   innovation.R.diagonal().array() += p.min_velocity_sigma * p.min_velocity_sigma;
+  if (may_be_late(state, fix, p)) take_earlier(innovation, state, acceleration_of(state, rate));
   return innovation;
 }
 

@@ -72,6 +72,7 @@ void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
   add(rear_slip, p.rear_slip_sigma);
   state.x.segment<3>(lever_forward) << p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up;
   for (int i = lever_forward; i <= lever_up; ++i) add(i, p.gnss_lever_sigma);
+  add(gnss_delay, p.gnss_delay_sigma);
   add(lidar_scale, p.lidar_scale_sigma);
   add(lidar_turn, p.lidar_turn_sigma);
   for (int i = gnss_offset_east; i <= gnss_offset_up; ++i) add(i, 1.0);
@@ -225,12 +226,13 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   state.P(climb_offset, pitch) = state.P(pitch, climb_offset);
   add(roll, p.start_roll_sigma);
   add_unknown_sensors(state, p);
-  // The fix is the position of the antenna.
+  // The fix is the position of the antenna, at the time that it is of.
   const Eigen::Matrix3d R = rotation_enu_body(state.attitude());
   const Eigen::Vector3d arm = R * state.gnss_lever();
   StateMatrix to_origin = StateMatrix::Identity();
   to_origin.block<3, 3>(east, lever_forward) = -R;
   to_origin.block<3, 3>(east, azimuth) = -turned_by_attitude(state.attitude(), arm);
+  to_origin.block<3, 1>(east, gnss_delay) = v;
   state.x.segment<3>(east) -= arm;
   state.P = (to_origin * state.P * to_origin.transpose()).eval();
   // The lasting part of this fix's error is in the start position and also in later fixes.

@@ -218,6 +218,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
     walk(up_bias, p.accelerometer_bias_sigma, p.accelerometer_bias_time);
   }
   walk(imu_delay, 0.1 * p.imu_delay_sigma, p.accelerometer_bias_time);
+  walk(gnss_delay, 0.1 * p.gnss_delay_sigma, p.accelerometer_bias_time);
   walk(lidar_scale, p.lidar_scale_sigma, p.lidar_error_time);
   walk(lidar_turn, p.lidar_turn_sigma, p.lidar_error_time);
   Q(speed_scale, speed_scale) += dt * squared(p.speed_scale_walk);
@@ -249,6 +250,11 @@ void predict(FilterState& state, const InertialInput& input, const LocalEarth& e
   state.P = input.six_axes ? propagated<index::roll + 1>(state.P, step.F)
                            : propagated<index::azimuth + 1>(state.P, step.F);  // (4) of METHOD.md
   state.P += process_noise(state.x, step, input, parameters);
+  // A delay of fixes needs the mean over about its own length, without the road's unevenness.
+  constexpr double recent = 0.15;  // s
+  const double change = input.inertial ? step.x[index::speed] - state.x[index::speed] : 0.0;
+  const double kept = input.inertial ? std::exp(-input.duration / recent) : 0.0;
+  state.acceleration = kept * state.acceleration + (1.0 - kept) * change / input.duration;
   state.x = step.x;
 }
 

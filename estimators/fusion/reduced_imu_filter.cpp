@@ -207,7 +207,7 @@ void ReducedImuFilter::take_over(const ReducedImuFilter& other) {
 
 template <class Archive, class Filter>
 void ReducedImuFilter::describe(Archive& ar, Filter& f) {
-  ar.section("reduced-IMU filter", 12);
+  ar.section("reduced-IMU filter", 13);
   archive_same_parameters(ar, f.parameters_);
   Geodetic origin = f.frame_.origin();
   ar(f.remembered_, f.last_place_, f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_,

@@ -26,7 +26,7 @@ struct CalibratedProperty {
 };
 
 // Number of estimated properties.
-inline constexpr std::size_t calibrated_count = 18;
+inline constexpr std::size_t calibrated_count = 19;
 // Holds all properties, always in the same order.
 using SelfCalibrations = std::array<CalibratedProperty, calibrated_count>;
 

@@ -103,6 +103,8 @@ void describe_car(VehicleConfig& config, const VehicleCalibration& recorded) {
     take("fusion", "imu_delay_sigma", p.imu_delay_sigma,
          seen == neutral.camera.time.delay_sigma ? sigma : std::hypot(sigma, seen));
   }
+  if (const double sigma = d.antenna.time.delay_sigma; sigma != neutral.antenna.time.delay_sigma)
+    take("fusion", "gnss_delay_sigma", p.gnss_delay_sigma, sigma);
   if (config.is_given("vehicle.imu", "delay")) config.replay.imu_delay = d.imu.time.delay;
   if (!config.is_given("map", "side_of_road")) config.map.side_of_road = d.car.side_of_road;
 }

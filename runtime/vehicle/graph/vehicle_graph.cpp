@@ -28,6 +28,9 @@ VehicleConfig adapt_to_sensors(VehicleConfig config, const VehicleCalibration& c
   const bool inertial = sensors.imu || (sensors.live && sensors.live->imu);
   const bool camera = sensors.camera || (sensors.live && sensors.live->camera);
   if (!camera && !inertial && !sensors.odometry) config.fusion.use_gnss = true;
+  // A receiver stamps its observations by the time of GNSS.
+  if (sensors.epochs || (sensors.live && sensors.live->epochs))
+    config.fusion.gnss_delay_sigma = 0.0;
   if (config.configuration == "auto" && inertial && !camera && !sensors.odometry) {
     fusion::apply(fusion::configuration(sensors.wheel ? "GNSS+RISS" : "GNSS+RI"), config.fusion);
   }

@@ -79,7 +79,7 @@ struct Vehicle::Graph {
   void run_health(const std::stop_token& end);
   RuntimeReport look(Duration elapsed);
   void look_at_sensors(Health& health);
-  void look_at_imu_delay(Health& health);
+  void look_at_delays(Health& health);
   VehicleReport report() const;
 
   // The driver or stage of that name; nullptr: this vehicle does not have it.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -72,21 +73,32 @@ void Vehicle::Graph::look_at_sensors(Health& health) {
   }
 }
 
-// The fusion allows for a delay of the inertial stamps that it has found; what is known beforehand
-// is better.
-void Vehicle::Graph::look_at_imu_delay(Health& health) {
-  constexpr double harmless = 20.0;  // ms: a third of a degree in the sharpest bend
-  constexpr double certain = 5.0;    // sigmas
+// The fusion allows for a delay of stamps that it has found; what is known beforehand is better.
+void Vehicle::Graph::look_at_delays(Health& health) {
+  struct Sensor {
+    const char *key, *name, *against, *described;
+    double harmless;  // ms
+  };
+  const char* const antenna =
+      host_clock != nullptr ? "gnss_latency of [live]" : "delay of [vehicle.antenna]";
+  const std::array<Sensor, 2> sensors{{
+      {"imu_delay", "imu", "odometry", "delay of [vehicle.imu]", 20.0},  // 1/3 deg in a sharp bend
+      {"gnss_delay", "gnss", "the vehicle's motion", antenna, 50.0},     // 1 m in a town
+  }};
+  constexpr double certain = 5.0;  // sigmas
   const fusion::SelfCalibrations& all = fusion->filter_report().calibration;
-  const auto delay = std::ranges::find(all, "imu_delay", &fusion::CalibratedProperty::key);
-  if (!delay->observed() || std::abs(delay->value) < std::max(harmless, certain * delay->sigma)) {
-    return;
+  for (const Sensor& sensor : sensors) {
+    const auto delay = std::ranges::find(all, sensor.key, &fusion::CalibratedProperty::key);
+    if (!delay->observed() ||
+        std::abs(delay->value) < std::max(sensor.harmless, certain * delay->sigma)) {
+      continue;
+    }
+    const bool late = delay->value > 0.0;
+    health.degraded.push_back(
+        fmt::format("{}: its stamps are {:.0f} +- {:.0f} ms {} against {}; {} {}", sensor.name,
+                    std::abs(delay->value), delay->sigma, late ? "late" : "early", sensor.against,
+                    late ? "add that to" : "take that off", sensor.described));
   }
-  const char* instead = delay->value > 0.0 ? "late against odometry; add that to"
-                                           : "early against odometry; take that off";
-  health.degraded.push_back(
-      fmt::format("imu: its stamps are {:.0f} +- {:.0f} ms {} delay of [vehicle.imu]",
-                  std::abs(delay->value), delay->sigma, instead));
 }
 
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {
@@ -103,7 +115,7 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   report.deadlines = monitor.deadlines(stamp);
   report.place = fusion->filter_report().status.place;
   report.here = fusion->filter_report().here;
-  look_at_imu_delay(report.health);
+  look_at_delays(report.health);
   if (host_clock != nullptr) look_at_sensors(report.health);
   return report;
 }

@@ -137,5 +137,42 @@ TEST(ImuDelay, LeftInTheStampsIsFoundAgainstOdometryAndAllowedFor) {
   }
 }
 
+// The fixes are stamped late; the second half of the drive is scored.
+TEST(GnssDelay, OfTheFixesIsFoundAndAllowedFor) {
+  const SyntheticDrive drive(town(), 120.0, test_origin());
+  for (const double late : {0.0, 0.1, 0.3}) {
+    SCOPED_TRACE(late);
+    std::vector<Measurement> all;
+    append(all, drive.imu(100.0));
+    append(all, drive.wheels(0.0, 120.0));
+    for (double t = 0.0; t < 119.0; t += 1.0) {
+      GnssFix f = fix(drive, t);
+      for (Time* stamp : {&f.stamp, &f.velocity_stamp, &f.available}) *stamp += from_seconds(late);
+      all.push_back(f);
+    }
+    const auto largest_error = [&](double sigma) {
+      FusionParameters parameters = configured("GNSS+RISS");
+      parameters.gnss_delay_sigma = sigma;
+      ReducedImuFilter filter(parameters, test_origin());
+      double largest = 0.0;
+      add_as_available(filter, all);
+      for (double t = 115.0; t < 119.0; t += 0.5) {
+        const auto nav = filter.state_at(SyntheticDrive::at(t));
+        if (nav) largest = std::max(largest, horizontal_error(*nav, drive, t));
+      }
+      const SelfCalibrations found = filter.calibration();
+      const auto delay = std::ranges::find(found, "gnss_delay", &CalibratedProperty::key);
+      EXPECT_NEAR(delay->value, sigma > 0.0 ? 1e3 * late : 0.0, 10.0 + 200.0 * late);
+      EXPECT_EQ(delay->observed(), sigma > 0.0);
+      return largest;
+    };
+    const double allowed_for = largest_error(FusionParameters{}.gnss_delay_sigma);
+    EXPECT_LT(allowed_for, 1.0);
+    if (late > 0.2) {
+      EXPECT_GT(largest_error(0.0), 2.0 * allowed_for);
+    }
+  }
+}
+
 }  // namespace inertial_aiding_test
 }  // namespace maploop::fusion

@@ -63,7 +63,7 @@ TEST(InitialState, AYoungerVelocityIsLessCertainOfTheSpeed) {
 TEST(InitialState, CovarianceIsThatOfNoisyFixes) {
   FusionParameters p;
   p.start_course_sigma = p.start_slope_sigma = p.climb_offset_sigma = 1e-8;
-  p.gnss_lever_sigma = 1e-8;
+  p.gnss_lever_sigma = p.gnss_delay_sigma = 1e-8;
   p.min_position_sigma = p.min_velocity_sigma = p.speed_scale_sigma = 1e-8;
   p.road_slope_sigma = 1e9;
   const LocalFrame frame(test_origin());

@@ -49,6 +49,7 @@ inline fusion::StateVector busy_state() {
   x[axle_distance] = 0.9;
   x[rear_slip] = 0.007;
   x.segment<3>(lever_forward) << 1.2, -0.4, 0.9;
+  x[gnss_delay] = 0.2;
   x[speed_scale] = -0.008;
   x[lidar_scale] = 0.003;
   x[lidar_turn] = -4e-5;

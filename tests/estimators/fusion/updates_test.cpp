@@ -27,6 +27,9 @@ FilterState busy() {
   state.stamp = state.clone_stamp = state.start = SyntheticDrive::at(1.0);
   state.x = busy_state();
   state.P = busy_covariance();
+  state.imu_stamp = state.stamp;
+  state.acceleration = 1.3;
+  state.front_known = true;
   return state;
 }
 

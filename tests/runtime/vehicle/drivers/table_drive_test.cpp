@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -9,6 +10,7 @@
 #include "msgs/input_file.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/vehicle/drivers/recording.h"
+#include "sensors/delayed.h"
 #include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
@@ -17,7 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using maploop::testing::error_of;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 constexpr const char* gnss_rows =
     "t_s,lat_deg,lon_deg,height_m,vn_mps,ve_mps,vd_mps,pos_std_n_m,pos_std_e_m,pos_std_d_m,"
@@ -86,18 +91,22 @@ struct ReplayedTables {
   VehicleReport report;
 };
 
-ReplayedTables run(const Recording& recording, const VehicleConfig& config) {
+ReplayedTables run(const Recording& recording, Sensors sensors, const VehicleConfig& config) {
   ReplayedTables driven;
   Observer observer;
   observer.nav_state = [&](const NavState& state) {
     if (state.sequence % 10 == 0) driven.states.push_back(state);
   };
-  Vehicle vehicle(config, recording.calibration, recording.sensors(Time::min()),
+  Vehicle vehicle(config, recording.calibration, std::move(sensors),
                   runtime::DataClock::virtual_time(), {}, std::move(observer), nullptr, nullptr);
   vehicle.start();
   vehicle.wait();
   driven.report = vehicle.report();
   return driven;
+}
+
+ReplayedTables run(const Recording& recording, const VehicleConfig& config) {
+  return run(recording, recording.sensors(Time::min()), config);
 }
 
 // A short drive of a car in Oakville, with an outage at 90 s.
@@ -172,6 +181,20 @@ TEST_F(OakvilleDrive, RecoversFromAWrongFirstFix) {
     const Eigen::Vector3d p = LocalFrame(end.origin).to_enu(last.position);
     EXPECT_LT((end.position_enu - p).head<2>().norm(), 5.0);
   }
+}
+
+// The stamps of its fixes are 0.2 s later than they were.
+TEST_F(OakvilleDrive, SaysThatItsFixesAreLate) {
+  const Recording recording = open_recording(folder_, config_);
+  Sensors sensors = recording.sensors(Time::min());
+  sensors.gnss = sensors::delayed(std::move(sensors.gnss), from_seconds(-0.2));
+  const VehicleReport late = run(recording, std::move(sensors), config_).report;
+  const auto delay =
+      std::ranges::find(late.calibration, "gnss_delay", &fusion::CalibratedProperty::key);
+  EXPECT_NEAR(delay->value, 200.0, 60.0);
+  EXPECT_THAT(late.health.degraded, Contains(StartsWith("gnss: its stamps are")));
+  const VehicleReport as_recorded = run(recording, config_).report;
+  EXPECT_THAT(as_recorded.health.degraded, Not(Contains(StartsWith("gnss: its stamps are"))));
 }
 
 // Fixes of the outage do not reach the search for the mount either: until its end nothing differs
