@@ -117,8 +117,7 @@ bool write_drive(const fs::path& out, const SimulationOptions& options,
 bool simulate_drive(const fs::path& out, const SimulationOptions& options,
                     const FrameDone& frame_done) {
   if (!(options.seconds >= 1.0 && options.seconds <= most_seconds))
-    throw std::invalid_argument(
-        fmt::format("a simulated drive takes 1 to {:.0f} s", most_seconds));
+    throw std::invalid_argument(fmt::format("a simulated drive takes 1 to {:.0f} s", most_seconds));
   if (fs::exists(out)) {
     throw std::runtime_error("'" + out.string() +
                              "' exists already: name another folder, or remove it");

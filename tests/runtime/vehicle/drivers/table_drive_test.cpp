@@ -10,7 +10,6 @@
 #include "msgs/input_file.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/vehicle/drivers/recording.h"
-#include "sensors/delayed.h"
 #include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
@@ -91,22 +90,18 @@ struct ReplayedTables {
   VehicleReport report;
 };
 
-ReplayedTables run(const Recording& recording, Sensors sensors, const VehicleConfig& config) {
+ReplayedTables run(const Recording& recording, const VehicleConfig& config) {
   ReplayedTables driven;
   Observer observer;
   observer.nav_state = [&](const NavState& state) {
     if (state.sequence % 10 == 0) driven.states.push_back(state);
   };
-  Vehicle vehicle(config, recording.calibration, std::move(sensors),
+  Vehicle vehicle(config, recording.calibration, recording.sensors(Time::min()),
                   runtime::DataClock::virtual_time(), {}, std::move(observer), nullptr, nullptr);
   vehicle.start();
   vehicle.wait();
   driven.report = vehicle.report();
   return driven;
-}
-
-ReplayedTables run(const Recording& recording, const VehicleConfig& config) {
-  return run(recording, recording.sensors(Time::min()), config);
 }
 
 // A short drive of a car in Oakville, with an outage at 90 s.
@@ -183,18 +178,16 @@ TEST_F(OakvilleDrive, RecoversFromAWrongFirstFix) {
   }
 }
 
-// The stamps of its fixes are 0.2 s later than they were.
-TEST_F(OakvilleDrive, SaysThatItsFixesAreLate) {
-  const Recording recording = open_recording(folder_, config_);
-  Sensors sensors = recording.sensors(Time::min());
-  sensors.gnss = sensors::delayed(std::move(sensors.gnss), from_seconds(-0.2));
-  const VehicleReport late = run(recording, std::move(sensors), config_).report;
-  const auto delay =
-      std::ranges::find(late.calibration, "gnss_delay", &fusion::CalibratedProperty::key);
-  EXPECT_NEAR(delay->value, 200.0, 60.0);
-  EXPECT_THAT(late.health.degraded, Contains(StartsWith("gnss: its stamps are")));
-  const VehicleReport as_recorded = run(recording, config_).report;
+// A delay that the receiver does not have makes the stamps of its fixes too early.
+TEST_F(OakvilleDrive, SaysThatTheStampsOfItsFixesAreEarly) {
+  const auto as_recorded = run(open_recording(folder_, config_), config_).report;
   EXPECT_THAT(as_recorded.health.degraded, Not(Contains(StartsWith("gnss: its stamps are"))));
+  config_.vehicle.antenna.time.delay = 0.2;
+  const auto early = run(open_recording(folder_, config_), config_).report;
+  const auto delay =
+      std::ranges::find(early.calibration, "gnss_delay", &fusion::CalibratedProperty::key);
+  EXPECT_NEAR(delay->value, -200.0, 60.0);
+  EXPECT_THAT(early.health.degraded, Contains(StartsWith("gnss: its stamps are")));
 }
 
 // Fixes of the outage do not reach the search for the mount either: until its end nothing differs
