@@ -26,6 +26,10 @@ inline constexpr DataChoice six_axes_choice{
     "five drives of the car in Oakville (1, 3, 5, 7, 9)",
     "outages of 10, 30 and 60 s, whose median error changes by a third within a factor of two",
     "none; outages are scored on the other five"};
+inline constexpr DataChoice late_fixes_choice{
+    "five drives of the car in Oakville (1, 3, 5, 7, 9)",
+    "position with stamps of fixes that are right, 0.2 and 0.4 s late; 0.03 to 0.1 s differ little",
+    "none; stamps are scored on the other five"};
 inline constexpr DataChoice doubt_choice{
     "simulated towns 1 to 3, KITTI 00, 02, 03, 04 and five drives of the car in Oakville",
     "above what sensors without a fault reach, but for one parking lot",

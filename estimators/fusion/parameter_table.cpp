@@ -186,7 +186,8 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
       {"gnss_delay_sigma", &P::gnss_delay_sigma, 0.0, 1.0, "s", usual,
        "Standard deviation at the start of the time by which fixes are later than their stamps; 0: "
        "it is not estimated. Without it here, the delay_sigma of [vehicle.antenna] says it. The "
-       "observations of a receiver have no such delay."},
+       "observations of a receiver have no such delay.",
+       late_fixes_choice},
       {"odometry_lever_sigma", &P::odometry_lever_sigma, tiny, 100.0, "m", usual,
        "Standard deviation of the place to the left from which odometry is, the camera's or the "
        "LiDAR's."},
