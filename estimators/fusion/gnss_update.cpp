@@ -72,43 +72,50 @@ const Matrix3d& velocity_covariance_of(const GnssFix& fix) {
   return fix.increment ? fix.increment->velocity_covariance : fix.velocity_covariance;
 }
 
-// This is a velocity (m/s) or an acceleration (m/s^2) over ground, enu, and its derivative.
+// This is a velocity (m/s) or an acceleration (m/s^2) over ground, enu, with its derivatives by the
+// state.
 struct Motion {
   Vector3d value;
   Eigen::Matrix<double, 3, index::count> by_state = Eigen::Matrix<double, 3, index::count>::Zero();
 };
 
-Motion velocity_of(const FilterState& state) {
+// Takes a speed or its change by time, along the travel.
+Motion along_travel(const FilterState& state, double value) {
   using namespace index;
   const double sA = std::sin(state.x[azimuth]), cA = std::cos(state.x[azimuth]);
   const double sc = std::sin(state.climb()), cc = std::cos(state.climb());
-  const double ground = state.ground_speed(), to_ground = 1.0 / (1.0 + state.x[speed_scale]);
-  const Vector3d travel(sA * cc, cA * cc, sc);
-  Motion velocity{ground * travel};
-  velocity.by_state.col(speed) = to_ground * travel;
-  velocity.by_state.col(speed_scale) = -ground * to_ground * travel;
-  velocity.by_state.col(azimuth) = ground * Vector3d(cA * cc, -sA * cc, 0.0);
-  velocity.by_state.col(climb_offset) = ground * Vector3d(-sA * sc, -cA * sc, cc);
-  velocity.by_state.col(pitch) = velocity.by_state.col(climb_offset);
+  Motion motion{value * Vector3d(sA * cc, cA * cc, sc)};
+  motion.by_state.col(azimuth) = value * Vector3d(cA * cc, -sA * cc, 0.0);
+  motion.by_state.col(climb_offset) = value * Vector3d(-sA * sc, -cA * sc, cc);
+  motion.by_state.col(pitch) = motion.by_state.col(climb_offset);
+  return motion;
+}
+
+// Adds the derivatives of the speed over ground times `factor`, along `axis`.
+void add_speed_derivatives(const FilterState& state, double factor, const Vector3d& axis,
+                           Motion& motion) {
+  const double to_ground = 1.0 / (1.0 + state.x[index::speed_scale]);
+  motion.by_state.col(index::speed) = to_ground * factor * axis;
+  motion.by_state.col(index::speed_scale) = -state.ground_speed() * to_ground * factor * axis;
+}
+
+Motion velocity_of(const FilterState& state) {
+  Motion velocity = along_travel(state, state.ground_speed());
+  add_speed_derivatives(state, 1.0, direction(state.x[index::azimuth], state.climb()), velocity);
   return velocity;
 }
 
 // Takes the rate of turning to the left, rad/s.
 Motion acceleration_of(const FilterState& state, double rate) {
-  using namespace index;
-  const double sA = std::sin(state.x[azimuth]), cA = std::cos(state.x[azimuth]);
-  const double sc = std::sin(state.climb()), cc = std::cos(state.climb());
-  const double ground = state.ground_speed(), to_ground = 1.0 / (1.0 + state.x[speed_scale]);
+  const double sA = std::sin(state.x[index::azimuth]), cA = std::cos(state.x[index::azimuth]);
+  const double ground = state.ground_speed();
   const Vector3d left(-cA, sA, 0.0);
-  Motion a{state.acceleration * Vector3d(sA * cc, cA * cc, sc) + ground * rate * left};
-  a.by_state.col(speed) = to_ground * rate * left;
-  a.by_state.col(speed_scale) = -ground * to_ground * rate * left;
-  a.by_state.col(azimuth) =
-      state.acceleration * Vector3d(cA * cc, -sA * cc, 0.0) + ground * rate * Vector3d(sA, cA, 0.0);
-  a.by_state.col(climb_offset) = state.acceleration * Vector3d(-sA * sc, -cA * sc, cc);
-  a.by_state.col(pitch) = a.by_state.col(climb_offset);
-  a.by_state.col(gyro_bias) = -ground * left;
-  return a;
+  Motion acceleration = along_travel(state, state.acceleration);
+  acceleration.value += ground * rate * left;
+  acceleration.by_state.col(index::azimuth) += ground * rate * Vector3d(sA, cA, 0.0);
+  acceleration.by_state.col(index::gyro_bias) = -ground * left;
+  add_speed_derivatives(state, rate, left, acceleration);
+  return acceleration;
 }
 
 // A receiver that is carried measures at its stamps. Without inertial data, nothing tells how the

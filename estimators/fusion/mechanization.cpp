@@ -250,11 +250,15 @@ void predict(FilterState& state, const InertialInput& input, const LocalEarth& e
   state.P = input.six_axes ? propagated<index::roll + 1>(state.P, step.F)
                            : propagated<index::azimuth + 1>(state.P, step.F);  // (4) of METHOD.md
   state.P += process_noise(state.x, step, input, parameters);
-  // A delay of fixes needs the mean over about its own length, without the road's unevenness.
-  constexpr double recent = 0.15;  // s
-  const double change = input.inertial ? step.x[index::speed] - state.x[index::speed] : 0.0;
-  const double kept = input.inertial ? std::exp(-input.duration / recent) : 0.0;
-  state.acceleration = kept * state.acceleration + (1.0 - kept) * change / input.duration;
+  if (input.inertial) {
+    // A delay of fixes needs the mean over about its own length, without the road's unevenness.
+    constexpr double recent = 0.15;  // s
+    const double change = step.x[index::speed] - state.x[index::speed];
+    const double kept = std::exp(-input.duration / recent);
+    state.acceleration = kept * state.acceleration + (1.0 - kept) * change / input.duration;
+  } else {
+    state.acceleration = 0.0;
+  }
   state.x = step.x;
 }
 

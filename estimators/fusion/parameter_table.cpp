@@ -184,7 +184,7 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "stamps, against odometry; 0: it is not estimated. Without it here, the delay_sigma of "
        "[vehicle.imu] and [vehicle.camera] say it."},
       {"gnss_delay_sigma", &P::gnss_delay_sigma, 0.0, 1.0, "s", usual,
-       "Standard deviation at the start of the time by which fixes are later than their stamps; 0: "
+       "Standard deviation at the start of the time by which the stamps of fixes are late; 0: "
        "it is not estimated. Without it here, the delay_sigma of [vehicle.antenna] says it. The "
        "observations of a receiver have no such delay.",
        late_fixes_choice},

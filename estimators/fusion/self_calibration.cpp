@@ -50,7 +50,7 @@ const std::array<Property, calibrated_count> all{{
     {index::unit_course, "unit_course", "inertial unit points to the left by", "deg", degrees(1.0),
      mount},
     {index::imu_delay, "imu_delay", "inertial data later than its stamps by", "ms", 1e3, mount},
-    {index::gnss_delay, "gnss_delay", "fixes later than their stamps by", "ms", 1e3, mount},
+    {index::gnss_delay, "gnss_delay", "stamps of fixes late by", "ms", 1e3, mount},
 }};
 
 }  // namespace
